@@ -1,0 +1,33 @@
+# Flags every target of the project is compiled with.
+#
+# -ffp-contract=off: a fused multiply-add rounds once where two operations round twice, so contraction would make
+# results depend on the compiler and on the instruction set (ARCHITECTURE.md, "The same bytes everywhere").
+add_library(tenon_flags INTERFACE)
+target_compile_options(tenon_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                                             -Wno-sign-conversion)
+if(TENON_WERROR)
+  target_compile_options(tenon_flags INTERFACE -Werror)
+endif()
+if(TENON_SANITIZE)
+  target_compile_options(tenon_flags INTERFACE -fsanitize=${TENON_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(tenon_flags INTERFACE -fsanitize=${TENON_SANITIZE})
+endif()
+
+# tenon_module(NAME [USES module...] [LIBRARIES target...] [PRIVATE_LIBRARIES target...])
+#
+# One static library per folder of src/, made of every .cpp in it. USES names the folders it may include from.
+function(tenon_module name)
+  cmake_parse_arguments(ARG "" "" "USES;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  if(sources)
+    add_library(tenon_${name} STATIC ${sources})
+    set(scope PUBLIC)
+    target_link_libraries(tenon_${name} PRIVATE tenon_flags ${ARG_PRIVATE_LIBRARIES})
+  else()
+    add_library(tenon_${name} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  target_include_directories(tenon_${name} ${scope} ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src)
+  list(TRANSFORM ARG_USES PREPEND tenon_)
+  target_link_libraries(tenon_${name} ${scope} ${ARG_USES} ${ARG_LIBRARIES})
+endfunction()

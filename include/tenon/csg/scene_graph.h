@@ -1,0 +1,61 @@
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "tenon/base/error.h"
+#include "tenon/base/id.h"
+#include "tenon/math/affine3.h"
+#include "tenon/math/color.h"
+#include "tenon/primitive/primitive_store.h"
+
+namespace tenon {
+
+using SceneNodeId = Id<struct SceneNode_>;
+using MaterialId = Id<struct Material_>;
+
+/// A Boolean operation on the node's children. A difference subtracts every child after the first from the first; a
+/// complement is everything outside the union of its children.
+enum class SetOperation { union_, intersection, difference, complement };
+
+/// A transformation of the union of the node's children.
+struct Transform {
+  Affine3 parent_from_child;
+};
+
+/// OpenSCAD's `color`: the outermost one applies to a primitive.
+struct ColorAttribute {
+  Rgba color;
+};
+
+/// Tenon's `material`: the one nearest to a primitive applies (Zajíček 2012, §1.2.2).
+struct MaterialAttribute {
+  MaterialId material;
+};
+
+/// A leaf.
+struct PrimitiveLeaf {
+  PrimitiveId primitive;
+};
+
+/// A node of the semantic scene graph (Zajíček 2012, §1.2.2): operations, attributes, primitives.
+struct SceneNode {
+  std::variant<SetOperation, Transform, ColorAttribute, MaterialAttribute, PrimitiveLeaf> content = SetOperation::union_;
+  std::vector<SceneNodeId> children;  ///< empty for a leaf; a node may be the child of several parents
+};
+
+/// The scene as it was modelled. Nodes live in one array, so that no depth of nesting needs a deep call stack; a node's
+/// children come before it in the array.
+struct SceneGraph {
+  PrimitiveStore primitives;
+  std::vector<SceneNode> nodes;
+  SceneNodeId root;  ///< none for an empty scene
+
+  const SceneNode& operator[](SceneNodeId id) const { return nodes[id.get()]; }
+  SceneNodeId add(SceneNode node) {
+    nodes.push_back(std::move(node));
+    return SceneNodeId{nodes.size() - 1};
+  }
+};
+
+}  // namespace tenon

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "tenon/base/error.h"
+#include "tenon/base/id.h"
+#include "tenon/math/vec3.h"
+
+namespace tenon {
+
+using PrimitiveId = Id<struct Primitive_>;
+
+enum class Unit { none, length };
+
+/// n·p <= d.
+struct Plane {
+  Vec3 normal;
+  double d = 0;
+
+  friend constexpr bool operator==(const Plane&, const Plane&) = default;
+};
+
+/// The value of one field of a primitive.
+using FieldValue = std::variant<double, bool, Vec3, std::vector<Plane>>;
+
+/// One parameter of a primitive: parser, printer and documentation derive from it.
+struct FieldInfo {
+  std::string_view name;
+  Unit unit = Unit::none;
+  FieldValue fallback;  ///< the value when none is given; its alternative is the field's type
+  std::string_view doc;
+};
+
+/// One kind of primitive.
+struct PrimitiveKind {
+  std::string_view name;       ///< "sphere", "cone", ...: what statistics and hits print
+  std::string_view scad_name;  ///< the module of the scene language that makes it, with these fields as arguments
+  std::string_view doc;
+  bool bounded = true;  ///< false for half-spaces
+  std::vector<FieldInfo> fields;
+};
+
+/// Owns the primitives of a scene, one vector per kind, in their local frames.
+class PrimitiveStore {
+ public:
+  PrimitiveStore();
+  PrimitiveStore(PrimitiveStore&&) noexcept;
+  PrimitiveStore& operator=(PrimitiveStore&&) noexcept;
+  ~PrimitiveStore();
+
+  /// Every kind there is, in a fixed order.
+  static std::span<const PrimitiveKind> kinds();
+  /// The kind with this `PrimitiveKind::name`; nullptr when there is none.
+  static const PrimitiveKind* find_kind(std::string_view name);
+
+  /// Adds a primitive.
+  /// @param kind    an element of kinds()
+  /// @param values  one value per field, in the order of `kind.fields`, each of the alternative of its fallback
+  /// @return its id, or an error (without place) that says why these values make no solid: a size that is zero,
+  ///         negative or not finite
+  Result<PrimitiveId> add(const PrimitiveKind& kind, std::span<const FieldValue> values);
+
+  std::size_t size() const;
+  const PrimitiveKind& kind(PrimitiveId id) const;
+  /// The field values, as given to add().
+  std::vector<FieldValue> values(PrimitiveId id) const;
+
+  /// What the primitives are made of; for the dispatch unit only.
+  struct Lists;
+  const Lists& lists() const { return *lists_; }
+
+ private:
+  std::unique_ptr<Lists> lists_;
+};
+
+}  // namespace tenon
