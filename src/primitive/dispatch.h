@@ -1,0 +1,35 @@
+#pragma once
+
+#include "primitive/local_box.h"
+#include "primitive/local_ray.h"
+#include "primitive/placement.h"
+#include "tenon/primitive/crossing.h"
+#include "tenon/primitive/primitive_store.h"
+
+/// What can be asked of a primitive without knowing its kind. The closed list of kinds (all.h) is known to dispatch.cpp
+/// alone.
+namespace tenon {
+
+/// Appends all crossings of the ray's whole line with the primitive, sorted by t, to `out`. See Crossing and LocalRay.
+void spans(const PrimitiveStore& store, PrimitiveId id, const LocalRay& ray, Spans& out);
+
+/// The same for a ray of the world: maps it, and adds the shift to every t.
+void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const Ray& ray, double tolerance,
+           int on_face, Spans& out);
+
+/// The largest n·p over the primitive's points p, in the local frame; +inf where it is unbounded.
+double support(const PrimitiveStore& store, PrimitiveId id, const Vec3& n);
+
+/// The smallest box of the world around the placed primitive, never too small: rounding is added outward.
+Box3 world_bounds(const PrimitiveStore& store, PrimitiveId id, const Placement& placement);
+
+/// Where a box lies with respect to the primitive.
+Region classify(const PrimitiveStore& store, PrimitiveId id, const LocalBox& box);
+
+/// Outward normal at a point of the given face, local frame, any length but zero.
+Vec3 normal(const PrimitiveStore& store, PrimitiveId id, const Vec3& point, std::uint32_t face);
+
+/// Relative cost of spans(), for the surface area heuristic; a sphere's is 1.
+double cost(const PrimitiveStore& store, PrimitiveId id);
+
+}  // namespace tenon

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <optional>
+
+#include "primitive/local_box.h"
+#include "primitive/local_ray.h"
+#include "tenon/math/affine3.h"
+#include "tenon/math/box3.h"
+#include "tenon/math/ray.h"
+
+namespace tenon {
+
+/// An affine map together with a bound on the error of each entry: what is left of the exact product of the
+/// transformations in the scene after rounding.
+struct BoundedAffine3 {
+  Affine3 map;
+  Affine3 error{{{{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}}};  ///< entry by entry, >= 0
+
+  /// One transformation as the scene wrote it: entries of its linear part came from sines, cosines and a few products,
+  /// so each is within 4u of the largest in its row; its translation is taken as written.
+  static BoundedAffine3 elementary(const Affine3& map);
+};
+
+/// First `b`, then `a`, errors included.
+BoundedAffine3 operator*(const BoundedAffine3& a, const BoundedAffine3& b);
+
+/// How a primitive stands in the world.
+class Placement {
+ public:
+  /// @param world_from_local  where the local frame lies
+  /// @param local_center      a point near which the primitive lies in its frame (the centre of its bounds), to which
+  ///                          rays are moved before they are mapped
+  /// @return nothing when the map flattens space within its own error, or is not finite
+  static std::optional<Placement> create(const BoundedAffine3& world_from_local, const Vec3& local_center);
+
+  const Affine3& world_from_local() const { return world_from_local_; }
+  /// The linear part of the inverse map; its translation is zero, since points are taken relative to world_origin().
+  const Affine3& local_from_world_linear() const { return local_from_world_; }
+  const Vec3& world_origin() const { return world_origin_; }
+  /// Bound on the distance, per world axis, between a computed world_from_local().point(p) and the exact one, for local
+  /// points with |p| <= extent component by component.
+  Vec3 world_error(const Vec3& extent) const;
+
+  Vec3 point_to_local(const Vec3& world) const { return local_from_world_.direction(world - world_origin_); }
+  /// A normal of the local frame, carried to the world at length 1. A mirrored frame keeps outward normals outward.
+  Vec3 normal_to_world(const Vec3& local_normal) const {
+    return normalize(local_from_world_.transposed_direction(local_normal));
+  }
+
+  struct MappedRay {
+    LocalRay ray;
+    double shift = 0;  ///< t on the world's ray = shift + t on the local ray; 0 when the ray starts on the primitive
+  };
+  /// The ray in the local frame. t is unchanged but for the shift (course, "Intersection computation: principle").
+  /// @param tolerance  how far apart, in the world, two faces may lie that count as one (the scene's Tolerance); it is
+  ///                   added to the error of the origin
+  /// @param on_face    the face the ray starts on, or -1
+  MappedRay to_local(const Ray& ray, double tolerance, int on_face) const;
+
+  /// The box in the local frame.
+  LocalBox to_local(const Box3& box) const;
+
+ private:
+  Affine3 world_from_local_;
+  Affine3 world_from_local_error_;
+  Affine3 local_from_world_;
+  Vec3 world_origin_;
+  Vec3 world_center_;
+  // The error of a mapped vector v, per local axis: constant_error_ + relative_error_ * max|v_i|.
+  Vec3 constant_error_;
+  Vec3 relative_error_;
+  Vec3 row_length_;  // Euclidean length of each row of local_from_world_
+  Vec3 row_sum_;     // sum of absolute values of each row
+};
+
+}  // namespace tenon
