@@ -1,0 +1,91 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tenon/base/error.h"
+#include "tenon/base/function_ref.h"
+#include "tenon/base/statistics.h"
+#include "tenon/csg/hit.h"
+#include "tenon/math/ray.h"
+
+namespace tenon {
+
+struct CsgTree;
+
+/// A ray, and what is known about it beforehand.
+struct RayQuery {
+  Ray ray;
+  double t_max = std::numeric_limits<double>::infinity();  ///< what lies at or behind it does not count
+  RayKind kind = RayKind::primary;
+  int pixel_x = 0, pixel_y = 0;  ///< primary rays: where they pass the screen
+  const Hit* from = nullptr;     ///< the hit the ray starts at; none when it starts in free space
+};
+
+/// What one thread needs to trace rays through one accelerator: scratch memory and counters.
+class TraceContext {
+ public:
+  virtual ~TraceContext() = default;
+  TraversalStatistics statistics;
+
+ protected:
+  TraceContext() = default;
+  TraceContext(const TraceContext&) = default;
+  TraceContext& operator=(const TraceContext&) = default;
+};
+
+/// What a structure says about itself once it is built.
+struct AcceleratorFigures {
+  double build_seconds = 0;
+  std::size_t memory_bytes = 0;
+  std::size_t boxes = 0;  ///< boxes, cells or nodes
+  int depth = 0;
+};
+
+/// Whether a boundary stops a shadow ray. Called once for each boundary on the way, in any order.
+using StopsRay = FunctionRef<bool(const Hit&)>;
+
+/// A spatial structure over the primitives of a CSG tree: it decides in which order they are revealed to a ray, and so
+/// when the ray may stop. Immutable once built and shared by threads, each with its own context.
+///
+/// Every structure gives the same answers, bit for bit, as `none`.
+class Accelerator {
+ public:
+  virtual ~Accelerator() = default;
+
+  virtual std::unique_ptr<TraceContext> make_context() const = 0;
+
+  /// For each query the first boundary of the solid at t > 0, before t_max; Hit::found() is false where there is none.
+  /// `hits` has the length of `queries`.
+  virtual void first_hits(std::span<const RayQuery> queries, std::span<Hit> hits, TraceContext& context) const = 0;
+
+  /// True as soon as `stops` returned true for a boundary at 0 < t < t_max.
+  virtual bool any_hit(const RayQuery& query, StopsRay stops, TraceContext& context) const = 0;
+
+  /// The parts of the ray (t >= 0) inside the solid, sorted. A ray that starts inside has t_in = 0 there.
+  virtual void all_spans(const RayQuery& query, std::vector<SolidSpan>& spans, TraceContext& context) const = 0;
+
+  virtual AcceleratorFigures figures() const = 0;
+
+  Hit first_hit(const RayQuery& query, TraceContext& context) const {
+    Hit hit;
+    first_hits({&query, 1}, {&hit, 1}, context);
+    return hit;
+  }
+};
+
+/// The names `build_accelerator` knows.
+std::vector<std::string_view> accelerator_names();
+
+/// Builds a structure.
+/// @param spec  `NAME[:key=value,...]`, as the command line has it
+/// @param tree  the scene; outlives the structure
+/// @return the structure, or a usage error: an unknown name or option, with what there is instead
+Result<std::unique_ptr<Accelerator>> build_accelerator(std::string_view spec, const CsgTree& tree);
+
+}  // namespace tenon

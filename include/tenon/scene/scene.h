@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "tenon/base/diagnostics.h"
+#include "tenon/base/error.h"
+#include "tenon/math/box3.h"
+#include "tenon/scene/camera.h"
+#include "tenon/scene/light.h"
+#include "tenon/scene/material.h"
+#include "tenon/csg/hit.h"
+#include "tenon/scene/model.h"
+
+namespace tenon {
+
+struct CsgTree;
+
+/// A scene ready to be traced: attributes pushed to the leaves, camera and lights chosen where the file has none.
+struct Scene {
+  std::shared_ptr<const CsgTree> tree;
+  std::vector<Material> materials;  ///< indexed by MaterialId; each has its colour
+  Material default_material;        ///< where Hit::material is none
+  std::vector<Light> lights;
+  Camera camera;
+  Rgb background;  ///< linear
+  Rgb ambient;     ///< linear; Ia of the course
+
+  const Material& material(MaterialId id) const { return id ? materials[id.get()] : default_material; }
+};
+
+/// Compiles a model.
+/// @return the scene, or an error when it holds no solid at all
+Result<Scene> compile_scene(Model model, Diagnostics& diagnostics);
+
+/// What `tenon info` tells about a scene.
+struct SceneFigures {
+  std::size_t primitives = 0;
+  std::vector<std::pair<std::string, std::size_t>> primitives_by_kind;
+  std::size_t operations = 0;
+  int depth = 0;          ///< of the CSG tree as modelled; a lone primitive has depth 1
+  Box3 bounds;            ///< of the solid, by the enclosures of its tree
+  double tolerance = 0;   ///< see Tolerance
+  std::size_t materials = 0;
+  std::size_t lights = 0;
+};
+SceneFigures scene_figures(const Scene& scene);
+
+/// What `tenon trace` says about the primitive of a hit: the name of its kind, and its number in tree order.
+std::string_view primitive_name(const Scene& scene, LeafId leaf);
+
+/// A view and lights that show the bounds well, for scenes that name none: three-quarter view from above, and a key
+/// and a fill light fixed to it.
+Camera default_camera(const Box3& bounds);
+std::vector<Light> default_lights(const Box3& bounds, const Camera& camera);
+
+/// sRGB-encoded components (IEC 61966-2-1) to linear light, and back.
+Rgb linear_from_srgb(const Rgba& color);
+double srgb_from_linear(double value);
+
+}  // namespace tenon
