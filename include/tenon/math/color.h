@@ -22,4 +22,10 @@ struct Rgba {
   friend constexpr bool operator==(const Rgba&, const Rgba&) = default;
 };
 
+/// The light a colour of the scene language stands for (IEC 61966-2-1); its opacity is left out.
+Rgb linear_from_srgb(const Rgba& color);
+
+/// A component of linear light as a display expects it, in [0, 1]. Light outside [0, 1] is clamped, NaN is 0.
+double srgb_from_linear(double value);
+
 }  // namespace tenon

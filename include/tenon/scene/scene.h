@@ -25,6 +25,7 @@ struct Scene {
   Camera camera;
   Rgb background;  ///< linear
   Rgb ambient;     ///< linear; Ia of the course
+  std::vector<double> medium_ior{1, 1};  ///< index of refraction, indexed by MediumId; outside and opaque: 1
 
   const Material& material(MaterialId id) const { return id ? materials[id.get()] : default_material; }
 };
@@ -53,9 +54,5 @@ std::string_view primitive_name(const Scene& scene, LeafId leaf);
 /// and a fill light fixed to it.
 Camera default_camera(const Box3& bounds);
 std::vector<Light> default_lights(const Box3& bounds, const Camera& camera);
-
-/// sRGB-encoded components (IEC 61966-2-1) to linear light, and back.
-Rgb linear_from_srgb(const Rgba& color);
-double srgb_from_linear(double value);
 
 }  // namespace tenon
