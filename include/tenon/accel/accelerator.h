@@ -41,7 +41,6 @@ class TraceContext {
 
 /// What a structure says about itself once it is built.
 struct AcceleratorFigures {
-  double build_seconds = 0;
   std::size_t memory_bytes = 0;
   std::size_t boxes = 0;  ///< boxes, cells or nodes
   int depth = 0;
@@ -78,6 +77,9 @@ class Accelerator {
     return hit;
   }
 };
+
+/// What a program uses when nobody chose.
+inline constexpr std::string_view default_accelerator = "none";
 
 /// The names `build_accelerator` knows.
 std::vector<std::string_view> accelerator_names();

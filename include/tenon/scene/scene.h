@@ -5,11 +5,11 @@
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/error.h"
+#include "tenon/csg/hit.h"
 #include "tenon/math/box3.h"
 #include "tenon/scene/camera.h"
 #include "tenon/scene/light.h"
 #include "tenon/scene/material.h"
-#include "tenon/csg/hit.h"
 #include "tenon/scene/model.h"
 
 namespace tenon {
@@ -21,10 +21,11 @@ struct Scene {
   std::shared_ptr<const CsgTree> tree;
   std::vector<Material> materials;  ///< indexed by MaterialId; each has its colour
   Material default_material;        ///< where Hit::material is none
+  std::vector<double> medium_ior;   ///< index of refraction, indexed by MediumId; 1 outside and in opaque solids
   std::vector<Light> lights;
   Camera camera;
-  Rgb background;  ///< linear
-  Rgb ambient;     ///< linear; Ia of the course
+  Rgb background;                        ///< linear
+  Rgb ambient;                           ///< linear; Ia of the course
   std::vector<double> medium_ior{1, 1};  ///< index of refraction, indexed by MediumId; outside and opaque: 1
 
   const Material& material(MaterialId id) const { return id ? materials[id.get()] : default_material; }
@@ -39,9 +40,9 @@ struct SceneFigures {
   std::size_t primitives = 0;
   std::vector<std::pair<std::string, std::size_t>> primitives_by_kind;
   std::size_t operations = 0;
-  int depth = 0;          ///< of the CSG tree as modelled; a lone primitive has depth 1
-  Box3 bounds;            ///< of the solid, by the enclosures of its tree
-  double tolerance = 0;   ///< see Tolerance
+  int depth = 0;         ///< of the CSG tree as modelled; a lone primitive has depth 1
+  Box3 bounds;           ///< of the solid, by the enclosures of its tree
+  double tolerance = 0;  ///< see Tolerance
   std::size_t materials = 0;
   std::size_t lights = 0;
 };

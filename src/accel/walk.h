@@ -1,0 +1,53 @@
+#pragma once
+
+#include "csg/csg_tree.h"
+#include "csg/expression.h"
+#include "csg/tree_source.h"
+#include "tenon/accel/accelerator.h"
+
+namespace tenon {
+
+/// One ray's way through a structure. The structure reveals leaves and settles; what becomes of the boundaries found is
+/// not its business.
+class Walk {
+ public:
+  using Sink = FunctionRef<bool(const Run&)>;  ///< returns true when the ray has what it wants
+
+  Walk(TreeClassifier& classifier, const RayQuery& query, TraversalCounters& counters, Sink sink)
+      : classifier_(classifier), query_(query), counters_(counters), sink_(sink) {}
+
+  const RayQuery& query() const { return query_; }
+  const Ray& ray() const { return query_.ray; }
+  TraversalCounters& counters() { return counters_; }
+
+  /// Intersects a leaf with the ray, unless its mailbox knows the answer.
+  void reveal(LeafId leaf) {
+    if (classifier_.reveal(leaf)) {
+      ++counters_.primitive_tests;
+    } else {
+      ++counters_.mailbox_hits;
+    }
+  }
+
+  /// Every leaf that can change the root before `t` has been revealed.
+  /// @return true when the ray is done and the structure must stop
+  bool settle(double t) {
+    if (done_) return true;
+    while (const std::optional<Run> run = classifier_.settle(t)) {
+      if (!(run->t < query_.t_max) || sink_(*run)) return done_ = true;
+    }
+    return done_ = t >= query_.t_max && !classifier_.run_pending();
+  }
+
+  /// No leaf ahead has been left out: settles the rest of the ray.
+  void finish() { settle(std::numeric_limits<double>::infinity()); }
+
+ private:
+  TreeClassifier& classifier_;
+  const RayQuery& query_;
+  TraversalCounters& counters_;
+  Sink sink_;
+  bool done_ = false;
+};
+
+}  // namespace tenon

@@ -1,0 +1,349 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "tenon/csg/hit.h"
+#include "tenon/primitive/crossing.h"
+
+namespace tenon {
+
+/// What a classifier has to know about the leaves: where a ray crosses them, and what fills them.
+template <class S>
+concept LeafSource = requires(S& source, LeafId leaf, Spans& spans) {
+  source.crossings(leaf, spans);  // appends the crossings of the current ray with the leaf, sorted
+  { source.has_media() } -> std::convertible_to<bool>;
+  { source.medium(leaf) } -> std::convertible_to<MediumId>;
+  { source.priority(leaf) } -> std::convertible_to<double>;
+};
+
+/// Which points of space an expression over the leaves holds: ExpressionState is the model.
+template <class E>
+concept ExpressionEvaluation = requires(E& state, const E& seen, LeafId leaf) {
+  state.reset();
+  { state.flip(leaf) } -> std::same_as<bool>;
+  { seen.value() } -> std::same_as<bool>;
+  { seen.inside(leaf) } -> std::same_as<bool>;
+  { seen.owns(leaf) } -> std::same_as<bool>;
+};
+
+/// A change of the root along the ray: one boundary of the solid, however many faces coincide there.
+struct Run {
+  double t = 0;
+  double bound = 0;
+  LeafFace surface;            ///< the face that shows
+  bool leaf_entering = false;  ///< the ray enters the leaf that shows
+  bool is_surface = false;     ///< that leaf is a surface, not a solid
+  LeafId owner;                ///< the leaf whose material fills the solid's side; none when nothing owns it
+  MediumId before = medium_outside;
+  MediumId after = medium_outside;
+  InlineVector<LeafFace, 4> faces;  ///< every face that coincides here
+};
+
+/// Follows one ray through a Boolean expression. The rules for ties, runs, starts on a surface, surfaces and media
+/// stand here and nowhere else.
+///
+/// Crossings are taken in the order (t, leaf), and the root is evaluated after each.
+///
+/// *Runs.* A run begins at a change of the root and takes every later change whose error interval meets the first
+/// one's, up to the first change that does not. Intervals are not chained: a crossing that does not change the root
+/// never joins two faces. When the root is the same before and after a run, nothing happened.
+///
+/// Every interval contains the exact crossing (Crossing), so the intervals of faces that coincide in the scene all
+/// share a point and meet pairwise, at any rotation and in whatever order rounding put them: coincident faces form one
+/// run.
+///
+/// *What shows.* Of the crossings whose interval meets the run's first, those whose bit alone changes the root in the
+/// state before or after the run; of these the first in tree order.
+///
+/// *Start.* The ray starts at t = 0. Crossings at or before it give the state there. From there on, changes of the root
+/// whose interval contains 0 are absorbed by the start, up to the first that does not.
+///
+/// *Surfaces.* A surface never flips a bit. It shows where the root would differ between its bit set and cleared.
+///
+/// *Media.* Where the source has media, the root's value is the medium of the leaf that owns the point: the one of
+/// highest priority, then the first in tree order, among the leaves that hold the point, are not subtracted and have
+/// every operation above them true.
+template <ExpressionEvaluation State, LeafSource Source>
+class Classifier {
+ public:
+  Classifier(State state, Source source, std::size_t leaf_count)
+      : state_(std::move(state)), source_(std::move(source)), revealed_(leaf_count) {}
+
+  Source& source() { return source_; }
+
+  /// Begins a new ray. The source must know it by now.
+  void start() {
+    if (++stamp_ == 0) {
+      std::fill(revealed_.begin(), revealed_.end(), 0);
+      stamp_ = 1;
+    }
+    state_.reset();
+    queue_.clear();
+    trail_.clear();
+    inside_.clear();
+    started_ = false;
+    absorbing_ = true;
+    run_active_ = false;
+    front_ = 0;
+    value_ = evaluate();
+  }
+
+  /// Whether the leaf was intersected with this ray already: the mailbox.
+  bool revealed(LeafId leaf) const { return revealed_[leaf.get()] == stamp_; }
+
+  /// Intersects a leaf with the ray, once per ray: crossings behind the settled front set its bit silently, the others
+  /// wait for settle().
+  /// @return whether it was intersected now, and not before
+  bool reveal(LeafId leaf) {
+    if (revealed(leaf)) return false;
+    revealed_[leaf.get()] = stamp_;
+    spans_.clear();
+    source_.crossings(leaf, spans_);
+    if (spans_.empty()) return true;
+
+    bool inside = false;
+    for (std::uint32_t i = 0; i < spans_.size(); ++i) {
+      const Crossing& c = spans_[i];
+      const bool passed = started_ ? c.t < front_ : c.t <= 0;
+      if (passed) {
+        if (!c.surface) inside = !inside;
+      } else if (c.t < std::numeric_limits<double>::infinity()) {
+        queue_.push_back({c.t, c.bound, leaf, c.face, i, c.entering, c.surface});
+        std::push_heap(queue_.begin(), queue_.end(), later);
+      }
+    }
+    if (inside) {
+      const MediumId before = value_;
+      flip(leaf);
+      if (started_ && value_ != before) ++seam_faults_;
+    }
+    return true;
+  }
+
+  /// Processes the crossings before `limit`. Every leaf that can change the root before it must have been revealed.
+  /// @return the first run that lies wholly before the limit; none when there is none, and then the front is at `limit`
+  std::optional<Run> settle(double limit) {
+    started_ = true;
+    for (;;) {
+      if (queue_.empty() || !(queue_.front().t < limit)) {
+        const bool whole = run_high_ < limit || limit == std::numeric_limits<double>::infinity();
+        if (run_active_ && whole) {
+          if (std::optional<Run> run = close_run()) return run;
+        }
+        front_ = std::max(front_, limit);
+        return std::nullopt;
+      }
+      const Event e = pop();
+      front_ = e.t;
+      const MediumId before = value_;
+      const bool changes = e.surface ? shows_surface(e.leaf) : (flip(e.leaf), value_ != before);
+      trail_.push_back(e);
+      if (!changes) continue;
+      if (absorbing_ && e.t - e.bound <= 0) continue;
+      absorbing_ = false;
+      if (run_active_ && e.t - e.bound <= run_high_) {
+        run_shows_surface_ |= e.surface;
+        continue;
+      }
+      std::optional<Run> run;
+      if (run_active_) {
+        // The crossing lies behind the run: judge the run in the state before the crossing.
+        trail_.pop_back();
+        if (!e.surface) flip(e.leaf);
+        run = close_run();
+        if (!e.surface) flip(e.leaf);
+        trail_.push_back(e);
+      }
+      begin_run(e, before);
+      if (run) return run;
+    }
+  }
+
+  /// Whether a run has begun that no call of settle() has completed.
+  bool run_pending() const { return run_active_; }
+
+  /// The medium at the settled front.
+  MediumId value() const { return value_; }
+
+  /// Leaves revealed so late that they changed the root behind the front. Never, for a correct structure.
+  std::uint64_t seam_faults() const { return seam_faults_; }
+
+ private:
+  struct Event {
+    double t;
+    double bound;
+    LeafId leaf;
+    std::uint32_t face;
+    std::uint32_t ordinal;
+    bool entering;
+    bool surface;
+  };
+
+  // The one order of crossings, as std::push_heap wants it: the heap's front is the earliest.
+  static bool later(const Event& a, const Event& b) {
+    if (a.t != b.t) return a.t > b.t;
+    if (a.leaf != b.leaf) return a.leaf > b.leaf;
+    return a.ordinal > b.ordinal;
+  }
+
+  Event pop() {
+    std::pop_heap(queue_.begin(), queue_.end(), later);
+    const Event e = queue_.back();
+    queue_.pop_back();
+    return e;
+  }
+
+  void flip(LeafId leaf) {
+    if (state_.inside(leaf)) {
+      *std::find(inside_.begin(), inside_.end(), leaf) = inside_.back();
+      inside_.pop_back();
+    } else {
+      inside_.push_back(leaf);
+    }
+    state_.flip(leaf);
+    value_ = evaluate();
+  }
+
+  MediumId evaluate() const {
+    if (!state_.value()) return medium_outside;
+    if (!source_.has_media()) return medium_opaque;
+    const LeafId owner = find_owner();
+    return owner ? source_.medium(owner) : medium_opaque;
+  }
+
+  LeafId find_owner() const {
+    LeafId best;
+    for (const LeafId leaf : inside_) {
+      if (!state_.owns(leaf)) continue;
+      if (best) {
+        const double a = source_.priority(leaf), b = source_.priority(best);
+        if (a < b || (a == b && leaf > best)) continue;
+      }
+      best = leaf;
+    }
+    return best;
+  }
+
+  // The value the root would have with the leaf's bit flipped.
+  MediumId value_if_flipped(LeafId leaf) {
+    flip(leaf);
+    const MediumId value = value_;
+    flip(leaf);
+    return value;
+  }
+
+  bool shows_surface(LeafId leaf) { return value_if_flipped(leaf) != value_; }
+
+  void begin_run(const Event& first, MediumId before) {
+    run_active_ = true;
+    run_shows_surface_ = first.surface;
+    run_first_ = first;
+    run_before_ = before;
+    run_high_ = first.t + first.bound;
+    // Of the crossings before it, those whose interval ends before the run's begins can meet no later run either.
+    const double low = first.t - first.bound;
+    std::erase_if(trail_, [low](const Event& e) { return e.t + e.bound < low; });
+    run_begin_ = trail_.size() - 1;  // `first` was the last to be processed
+  }
+
+  bool meets_run(const Event& e) const {
+    return e.t - e.bound <= run_high_ && e.t + e.bound >= run_first_.t - run_first_.bound;
+  }
+
+  // The run is complete; what it amounts to, or nothing.
+  std::optional<Run> close_run() {
+    run_active_ = false;
+    if (run_before_ == value_ && !run_shows_surface_) return std::nullopt;
+
+    candidates_.clear();
+    for (const Event& e : trail_) {
+      if (meets_run(e)) candidates_.push_back(e);
+    }
+    for (const Event& e : queue_) {
+      if (meets_run(e)) candidates_.push_back(e);
+    }
+    const Event shown = candidates_.size() == 1 ? candidates_.front() : choose_shown();
+
+    Run run;
+    run.t = run_first_.t;
+    run.bound = run_first_.bound;
+    run.surface = {shown.leaf, shown.face};
+    run.leaf_entering = shown.entering;
+    run.is_surface = shown.surface;
+    run.before = run_before_;
+    run.after = value_;
+    for (const Event& e : candidates_) run.faces.push_back({e.leaf, e.face});
+    if (value_ != medium_outside) {
+      run.owner = find_owner();
+    } else {
+      rewind();
+      run.owner = find_owner();
+      replay();
+    }
+    return run;
+  }
+
+  // The first in tree order among the candidates whose bit alone changes the root before or after the run.
+  Event choose_shown() {
+    std::sort(candidates_.begin(), candidates_.end(),
+              [](const Event& a, const Event& b) { return a.leaf != b.leaf ? a.leaf < b.leaf : later(b, a); });
+    alone_.assign(candidates_.size(), false);
+    mark_candidates_that_change_root();
+    rewind();
+    mark_candidates_that_change_root();
+    replay();
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      if (alone_[i]) return candidates_[i];
+    }
+    return run_first_;
+  }
+
+  void mark_candidates_that_change_root() {
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      if (value_if_flipped(candidates_[i].leaf) != value_) alone_[i] = true;
+    }
+  }
+
+  // Takes the state back to before the run, and forth again.
+  void rewind() {
+    for (std::size_t i = trail_.size(); i-- > run_begin_;) {
+      if (!trail_[i].surface) flip(trail_[i].leaf);
+    }
+  }
+  void replay() {
+    for (std::size_t i = run_begin_; i < trail_.size(); ++i) {
+      if (!trail_[i].surface) flip(trail_[i].leaf);
+    }
+  }
+
+  State state_;
+  Source source_;
+  std::vector<std::uint32_t> revealed_;  // the stamp of the ray that revealed the leaf
+  std::uint32_t stamp_ = 0;
+
+  std::vector<Event> queue_;    // crossings ahead, a heap
+  std::vector<Event> trail_;    // crossings processed that may still meet a run
+  std::vector<LeafId> inside_;  // the leaves that hold the point at the front
+  double front_ = 0;
+  MediumId value_ = medium_outside;
+  bool started_ = false;    // settle() was called for this ray
+  bool absorbing_ = false;  // no change of the root has come that the start does not absorb
+
+  bool run_active_ = false;
+  bool run_shows_surface_ = false;
+  Event run_first_{};
+  MediumId run_before_ = medium_outside;
+  double run_high_ = 0;
+  std::size_t run_begin_ = 0;  // into trail_: the run's first crossing
+
+  std::uint64_t seam_faults_ = 0;
+  Spans spans_;
+  std::vector<Event> candidates_;
+  std::vector<bool> alone_;
+};
+
+}  // namespace tenon

@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "csg/minimum_enclosure.h"
+#include "csg/push_attributes.h"
+#include "tenon/scene/scene.h"
+
+namespace tenon {
+
+namespace {
+
+// OpenSCAD's cornfield yellow would do; a warm clay shows form better under a neutral light.
+constexpr Rgba default_color{0.92, 0.76, 0.42, 1};
+constexpr Rgba default_background{0.93, 0.95, 0.97, 1};
+constexpr Rgba default_ambient{0.52, 0.52, 0.54, 1};
+
+/// Gives each leaf the one material that follows from its `material` and its `color`, and numbers the media.
+class MaterialCompiler {
+ public:
+  MaterialCompiler(std::vector<Material> named, Scene& scene) : named_(std::move(named)), scene_(scene) {
+    scene_.default_material.name = "default";
+    scene_.default_material.color = default_color;
+    scene_.medium_ior = {1, 1};
+  }
+
+  void assign(Leaf& leaf) {
+    if (leaf.material || leaf.color) leaf.material = resolve(leaf.material, leaf.color);
+    const Material& material = scene_.material(leaf.material);
+    leaf.priority = material.priority;
+    leaf.medium = medium_of(material);
+  }
+
+ private:
+  static std::string key_of(MaterialId material, const std::optional<Rgba>& color) {
+    std::string key = material ? std::to_string(material.get()) : "-";
+    if (color) {
+      for (const double c : {color->r, color->g, color->b, color->a}) key += ' ' + std::to_string(c);
+    }
+    return key;
+  }
+
+  MaterialId resolve(MaterialId named, const std::optional<Rgba>& color) {
+    const auto [found, is_new] = resolved_.try_emplace(key_of(named, color), MaterialId{scene_.materials.size()});
+    if (is_new) scene_.materials.push_back(combine(named, color));
+    return found->second;
+  }
+
+  // A material's own colour stands; else `color` gives it. `color` alone with an opacity lets light through unbent.
+  Material combine(MaterialId named, const std::optional<Rgba>& color) const {
+    Material m = named ? named_[named.get()] : scene_.default_material;
+    const bool own_color = named && m.color;
+    if (!own_color) m.color = color ? color : default_color;
+    if (!named && color && color->a < 1) {
+      m.model = MaterialModel::whitted;
+      m.kd = color->a;
+      m.ks = 0;
+      m.kt = 1 - color->a;
+      m.ior = 1;
+    }
+    return m;
+  }
+
+  // Solids of one transparent material are one medium; all opaque ones are another.
+  MediumId medium_of(const Material& material) {
+    if (!(material.kt > 0)) return medium_opaque;
+    for (std::size_t i = 0; i < media_.size(); ++i) {
+      if (media_[i] == material) return static_cast<MediumId>(i + 2);
+    }
+    media_.push_back(material);
+    scene_.medium_ior.push_back(material.ior);
+    return static_cast<MediumId>(media_.size() + 1);
+  }
+
+  std::vector<Material> named_;
+  Scene& scene_;
+  std::map<std::string, MaterialId> resolved_;
+  std::vector<Material> media_;
+};
+
+Box3 solid_bounds(const CsgTree& tree) {
+  if (!tree.root) return Box3::empty();
+  return node_enclosures(tree)[tree.root.get()];
+}
+
+// The bounds a view is chosen from; a scene without any (a half-space alone) is looked at around the origin.
+Box3 view_bounds(const CsgTree& tree) {
+  Box3 bounds = solid_bounds(tree);
+  if (bounds.is_bounded()) return bounds;
+  bounds = Box3::empty();
+  for (const Leaf& leaf : tree.leaves) {
+    if (leaf.bounds.is_bounded()) bounds = hull(bounds, leaf.bounds);
+  }
+  return bounds.is_bounded() ? bounds : Box3{{-1, -1, -1}, {1, 1, 1}};
+}
+
+}  // namespace
+
+Result<Scene> compile_scene(Model model, Diagnostics& diagnostics) {
+  auto tree = std::make_shared<CsgTree>(push_attributes(std::move(model.graph), diagnostics));
+  if (tree->leaves.empty()) {
+    return Error{ErrorKind::input, "the scene holds no solid; add one, such as cube(10);", {}};
+  }
+  Scene scene;
+  MaterialCompiler materials(std::move(model.materials), scene);
+  for (Leaf& leaf : tree->leaves) {
+    materials.assign(leaf);
+    tree->has_media |= leaf.medium > medium_opaque;
+  }
+
+  const Box3 bounds = view_bounds(*tree);
+  scene.camera = model.camera.value_or(default_camera(bounds));
+  scene.lights = model.lights.empty() ? default_lights(bounds, scene.camera) : std::move(model.lights);
+  scene.background = linear_from_srgb(model.background.value_or(default_background));
+  scene.ambient = linear_from_srgb(model.ambient.value_or(default_ambient));
+  scene.tree = std::move(tree);
+  return scene;
+}
+
+SceneFigures scene_figures(const Scene& scene) {
+  const CsgTree& tree = *scene.tree;
+  SceneFigures figures;
+  figures.primitives = tree.leaves.size();
+  for (const PrimitiveKind& kind : PrimitiveStore::kinds()) {
+    const auto count = std::count_if(tree.leaves.begin(), tree.leaves.end(),
+                                     [&](const Leaf& leaf) { return &tree.primitives.kind(leaf.primitive) == &kind; });
+    if (count > 0) figures.primitives_by_kind.emplace_back(kind.name, static_cast<std::size_t>(count));
+  }
+  for (const CsgNode& node : tree.nodes) figures.operations += node.operation != CsgOperation::leaf;
+  figures.depth = tree.depth();
+  figures.bounds = solid_bounds(tree);
+  figures.tolerance = tree.tolerance.distance;
+  figures.materials = scene.materials.size();
+  figures.lights = scene.lights.size();
+  return figures;
+}
+
+std::string_view primitive_name(const Scene& scene, LeafId leaf) {
+  return scene.tree->primitives.kind((*scene.tree)[leaf].primitive).name;
+}
+
+}  // namespace tenon
