@@ -21,7 +21,6 @@ class MaterialCompiler {
   MaterialCompiler(std::vector<Material> named, Scene& scene) : named_(std::move(named)), scene_(scene) {
     scene_.default_material.name = "default";
     scene_.default_material.color = default_color;
-    scene_.medium_ior = {1, 1};
   }
 
   void assign(Leaf& leaf) {

@@ -21,7 +21,6 @@ struct Scene {
   std::shared_ptr<const CsgTree> tree;
   std::vector<Material> materials;  ///< indexed by MaterialId; each has its colour
   Material default_material;        ///< where Hit::material is none
-  std::vector<double> medium_ior;   ///< index of refraction, indexed by MediumId; 1 outside and in opaque solids
   std::vector<Light> lights;
   Camera camera;
   Rgb background;                        ///< linear
