@@ -1,0 +1,30 @@
+#pragma once
+
+#include "tenon/base/error.h"
+#include "tenon/math/ray.h"
+#include "tenon/scene/camera.h"
+
+namespace tenon {
+
+/// The primary rays of a camera for a picture of a given size.
+class CameraRays {
+ public:
+  /// @param camera  any `up` that is parallel to the view (or zero) is replaced by the z axis, or by y for a view along z
+  /// @param width   of the picture, pixels; so is height. Pixels are square: `fov` and `Camera::width` cover the width
+  /// @return the rays, or an input error: a camera that looks nowhere, or an impossible angle or width
+  static Result<CameraRays> create(const Camera& camera, int width, int height);
+
+  /// The ray through a place of the picture, in pixels from its upper left corner: the centre of the first pixel is
+  /// (0.5, 0.5). The direction has length 1, so t is a distance.
+  Ray ray(double x, double y) const;
+
+ private:
+  CameraRays() = default;
+
+  Projection projection_ = Projection::perspective;
+  Vec3 from_, forward_, right_, up_;
+  double width_ = 1, height_ = 1;
+  double half_width_ = 1;  ///< of the picture's plane: at distance 1 in perspective, in the scene's units otherwise
+};
+
+}  // namespace tenon

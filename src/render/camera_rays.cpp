@@ -1,0 +1,69 @@
+#include "tenon/render/camera_rays.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace tenon {
+
+namespace {
+
+Error camera_error(std::string message) { return {ErrorKind::input, "camera: " + std::move(message), {}}; }
+
+bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// The axis that lies farthest from the view; z before y before x, so that a view from above has y at its top.
+Vec3 default_up(const Vec3& forward) {
+  const Vec3 a = abs(forward);
+  if (a.z <= a.y && a.z <= a.x) return {0, 0, 1};
+  return a.y <= a.x ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
+}
+
+Vec3 right_of(const Vec3& forward, const Vec3& up) {
+  // The cross product of two directions of length 1 is off by less than 4 rounding errors per component, so one that is
+  // no longer than 8 of them has no direction of its own.
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  const Vec3 right = cross(forward, normalize(up));
+  return normalize(length(right) > rounding ? right : cross(forward, default_up(forward)));
+}
+
+}  // namespace
+
+Result<CameraRays> CameraRays::create(const Camera& camera, int width, int height) {
+  if (!is_finite(camera.from) || !is_finite(camera.at) || !is_finite(camera.up)) {
+    return camera_error("`from`, `at` and `up` must be finite numbers");
+  }
+  const Vec3 view = camera.at - camera.from;
+  if (view == Vec3{} || !is_finite(view)) return camera_error("it stands where it looks at; move `from` or `at`");
+
+  CameraRays rays;
+  rays.projection_ = camera.projection;
+  rays.from_ = camera.from;
+  rays.forward_ = normalize(view);
+  rays.right_ = right_of(rays.forward_, camera.up);
+  rays.up_ = cross(rays.right_, rays.forward_);
+  rays.width_ = width;
+  rays.height_ = height;
+  if (camera.projection == Projection::perspective) {
+    if (!(camera.fov > 0 && camera.fov < 180)) {
+      return camera_error("the field of view must lie between 0 and 180 degrees");
+    }
+    rays.half_width_ = std::tan(camera.fov * (std::numbers::pi / 360));
+  } else {
+    if (!(camera.width > 0) || !std::isfinite(camera.width)) {
+      return camera_error("the width that an orthographic view covers must be positive");
+    }
+    rays.half_width_ = camera.width / 2;
+  }
+  return rays;
+}
+
+Ray CameraRays::ray(double x, double y) const {
+  // 2x - width is exact at pixel centres, so the two halves of the picture are mirror images to the last bit.
+  const double scale = half_width_ / width_;
+  const Vec3 offset = ((2 * x - width_) * scale) * right_ + ((height_ - 2 * y) * scale) * up_;
+  if (projection_ == Projection::orthographic) return {from_ + offset, forward_};
+  return {from_, normalize(forward_ + offset)};
+}
+
+}  // namespace tenon
