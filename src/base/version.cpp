@@ -2,6 +2,8 @@
 
 namespace tenon {
 
-std::string_view version() { return TENON_VERSION; }
+std::string_view version() {
+  return TENON_VERSION;
+}
 
 }  // namespace tenon

@@ -8,9 +8,13 @@ namespace tenon {
 
 namespace {
 
-Error camera_error(std::string message) { return {ErrorKind::input, "camera: " + std::move(message), {}}; }
+Error camera_error(std::string message) {
+  return {ErrorKind::input, "camera: " + std::move(message), {}};
+}
 
-bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 // The axis that lies farthest from the view; z before y before x, so that a view from above has y at its top.
 Vec3 default_up(const Vec3& forward) {

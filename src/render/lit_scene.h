@@ -10,11 +10,11 @@ namespace tenon {
 
 /// A material as the illumination model uses it: the factors of the course's formula with the object's colour C in.
 struct Reflectance {
-  Rgb ambient;           ///< ka C Ia
-  Rgb diffuse;           ///< kd C
-  double specular = 0;   ///< ks of the direct term
-  double shininess = 0;  ///< n
-  double reflected = 0;  ///< ks of the reflected ray; 0 for phong
+  Rgb ambient;             ///< ka C Ia
+  Rgb diffuse;             ///< kd C
+  double specular = 0;     ///< ks of the direct term
+  double shininess = 0;    ///< n
+  double reflected = 0;    ///< ks of the reflected ray; 0 for phong
   double transmitted = 0;  ///< kt; 0 for phong, which is opaque
 };
 

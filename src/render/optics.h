@@ -10,7 +10,9 @@ namespace tenon {
 /// The mirrored direction.
 /// @param d  where the light goes, length 1
 /// @param n  the surface's normal against d, length 1
-inline Vec3 reflect(const Vec3& d, const Vec3& n) { return normalize(d - 2 * dot(d, n) * n); }
+inline Vec3 reflect(const Vec3& d, const Vec3& n) {
+  return normalize(d - 2 * dot(d, n) * n);
+}
 
 /// The direction behind the surface by Snell's law; none under total internal reflection.
 /// @param d    where the light goes, length 1

@@ -70,7 +70,9 @@ ProgressDisplay::ProgressDisplay(std::FILE* out, ProgressStyle style) : out_(out
   }
 }
 
-ProgressDisplay::~ProgressDisplay() { end(); }
+ProgressDisplay::~ProgressDisplay() {
+  end();
+}
 
 void ProgressDisplay::begin(std::string what) {
   const std::lock_guard lock(mutex_);
@@ -113,8 +115,8 @@ void ProgressDisplay::watch(const std::stop_token& stop) {
 
 void ProgressDisplay::show() {
   const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
-  std::string text = progress_text({*what_, counters_.total, counters_.done, counters_.rays, seconds},
-                                   style_ == ProgressStyle::bar);
+  std::string text =
+      progress_text({*what_, counters_.total, counters_.done, counters_.rays, seconds}, style_ == ProgressStyle::bar);
   if (style_ == ProgressStyle::lines) {
     std::fprintf(out_, "tenon: %s\n", text.c_str());
   } else {

@@ -9,7 +9,8 @@ namespace tenon {
 /// The primary rays of a camera for a picture of a given size.
 class CameraRays {
  public:
-  /// @param camera  any `up` that is parallel to the view (or zero) is replaced by the z axis, or by y for a view along z
+  /// @param camera  any `up` that is parallel to the view (or zero) is replaced by the z axis, or by y for a view along
+  /// z
   /// @param width   of the picture, pixels; so is height. Pixels are square: `fov` and `Camera::width` cover the width
   /// @return the rays, or an input error: a camera that looks nowhere, or an impossible angle or width
   static Result<CameraRays> create(const Camera& camera, int width, int height);

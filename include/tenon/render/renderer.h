@@ -12,15 +12,17 @@ namespace tenon {
 /// The share of a pixel below which a ray cannot be seen: half a step of an encoded component, where the steps are
 /// finest in linear light. That is next to black, where sRGB's slope is 12.92. A ray that carries the light of a white
 /// surface and less than this share of the pixel moves no component by more than rounding does.
-constexpr double invisible_share(int bits) { return 0.5 / (static_cast<double>((1ULL << bits) - 1) * 12.92); }
+constexpr double invisible_share(int bits) {
+  return 0.5 / (static_cast<double>((1ULL << bits) - 1) * 12.92);
+}
 
 struct RenderOptions {
-  int width = 640, height = 480;           ///< pixels
-  int samples = 1;                         ///< primary rays for each pixel; a single one passes its centre
-  int depth = 8;                           ///< levels of the tree of rays; 1: no reflected and refracted rays
-  double threshold = invisible_share(8);   ///< rays whose cumulative product is no larger are not traced
-  int threads = 0;                         ///< 0: all cores
-  int tile_size = 16;                      ///< pixels; no pixel depends on it
+  int width = 640, height = 480;          ///< pixels
+  int samples = 1;                        ///< primary rays for each pixel; a single one passes its centre
+  int depth = 8;                          ///< levels of the tree of rays; 1: no reflected and refracted rays
+  double threshold = invisible_share(8);  ///< rays whose cumulative product is no larger are not traced
+  int threads = 0;                        ///< 0: all cores
+  int tile_size = 16;                     ///< pixels; no pixel depends on it
 };
 
 struct Rendering {
@@ -30,8 +32,8 @@ struct Rendering {
   int threads = 1;
 };
 
-/// Takes the picture of a scene with its camera, by the complete illumination model (Bouatouch's course). Every pixel is
-/// the mean of its samples (box filter). The same bytes come of any number of threads and any tile size.
+/// Takes the picture of a scene with its camera, by the complete illumination model (Bouatouch's course). Every pixel
+/// is the mean of its samples (box filter). The same bytes come of any number of threads and any tile size.
 /// @param accelerator  over scene.tree
 /// @param progress     counts samples and rays; may be null
 /// @return the picture, or an input error about the camera
