@@ -8,11 +8,13 @@ namespace {
 
 struct Entry {
   std::string_view name;
+  std::string_view variants;
+  std::string_view doc;
   Result<std::unique_ptr<Accelerator>> (*build)(const CsgTree&, AcceleratorOptions&);
 };
 
 constexpr Entry entries[] = {
-#define TENON_ENTRY(function, name, doc) {name, build_##function},
+#define TENON_ENTRY(function, name, variants, doc) {name, variants, doc, build_##function},
     TENON_ACCELERATORS(TENON_ENTRY)
 #undef TENON_ENTRY
 };
@@ -23,6 +25,27 @@ std::vector<std::string_view> accelerator_names() {
   std::vector<std::string_view> names;
   for (const Entry& entry : entries) names.push_back(entry.name);
   return names;
+}
+
+std::string_view accelerator_doc(std::string_view name) {
+  for (const Entry& entry : entries) {
+    if (entry.name == name) return entry.doc;
+  }
+  return {};
+}
+
+std::vector<std::string> accelerator_specs() {
+  std::vector<std::string> specs;
+  for (const Entry& entry : entries) {
+    specs.emplace_back(entry.name);
+    std::string_view rest = entry.variants;
+    while (!rest.empty()) {
+      const std::size_t end = rest.find(';');
+      specs.push_back(std::string(entry.name) + ':' + std::string(rest.substr(0, end)));
+      rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
+    }
+  }
+  return specs;
 }
 
 Result<std::unique_ptr<Accelerator>> build_accelerator(std::string_view spec, const CsgTree& tree) {

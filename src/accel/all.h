@@ -6,14 +6,19 @@
 #include "csg/csg_tree.h"
 #include "tenon/accel/accelerator.h"
 
-/// The closed list of structures, fastest to write first: X(function, "command-line name", "what it is").
+/// The closed list of structures: X(function, "command-line name", "variants", "what it is").
+///
 /// A line here gives a structure its name on the command line, its tests, its benchmark row and its row in the docs.
-#define TENON_ACCELERATORS(X) X(none, "none", "every primitive, every ray: the oracle (Roth 1982)")
+/// `variants` are the option strings, beside the defaults, that the tests run too: "key=value,key=value;key=value".
+// clang-format off
+#define TENON_ACCELERATORS(X) \
+  X(none, "none", "", "every primitive, every ray: the oracle (Roth 1982)")
+// clang-format on
 
 namespace tenon {
 
 /// `build_NAME(tree, options)` for each structure: takes its options, then builds. Reports options it does not know.
-#define TENON_DECLARE(function, name, doc) \
+#define TENON_DECLARE(function, name, variants, doc) \
   Result<std::unique_ptr<Accelerator>> build_##function(const CsgTree& tree, AcceleratorOptions& options);
 TENON_ACCELERATORS(TENON_DECLARE)
 #undef TENON_DECLARE

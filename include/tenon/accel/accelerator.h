@@ -84,6 +84,11 @@ inline constexpr std::string_view default_accelerator = "none";
 /// The names `build_accelerator` knows.
 std::vector<std::string_view> accelerator_names();
 
+/// One line that says what the structure of this name is, and its source.
+std::string_view accelerator_doc(std::string_view name);
+/// Every structure by itself and with every option worth testing: what the battery of tests runs.
+std::vector<std::string> accelerator_specs();
+
 /// Builds a structure.
 /// @param spec  `NAME[:key=value,...]`, as the command line has it
 /// @param tree  the scene; outlives the structure
