@@ -10,7 +10,7 @@ struct Entry {
   std::string_view name;
   std::string_view variants;
   std::string_view doc;
-  Result<std::unique_ptr<Accelerator>> (*build)(const CsgTree&, AcceleratorOptions&);
+  Result<std::unique_ptr<Accelerator>> (*build)(const BuildInput&, AcceleratorOptions&);
 };
 
 constexpr Entry entries[] = {
@@ -48,11 +48,12 @@ std::vector<std::string> accelerator_specs() {
   return specs;
 }
 
-Result<std::unique_ptr<Accelerator>> build_accelerator(std::string_view spec, const CsgTree& tree) {
+Result<std::unique_ptr<Accelerator>> build_accelerator(std::string_view spec, const CsgTree& tree,
+                                                       const ScreenView* view) {
   Result<AcceleratorOptions> options = AcceleratorOptions::parse(spec);
   if (!options) return options.error();
   for (const Entry& entry : entries) {
-    if (entry.name == options->name()) return entry.build(tree, *options);
+    if (entry.name == options->name()) return entry.build({tree, view}, *options);
   }
   std::string all;
   for (const Entry& entry : entries) all += (all.empty() ? "" : ", ") + std::string(entry.name);

@@ -17,9 +17,15 @@
 
 namespace tenon {
 
-/// `build_NAME(tree, options)` for each structure: takes its options, then builds. Reports options it does not know.
+/// What a structure is built from.
+struct BuildInput {
+  const CsgTree& tree;
+  const ScreenView* view = nullptr;  ///< none: rays may come from anywhere
+};
+
+/// `build_NAME(input, options)` for each structure: takes its options, then builds. Reports options it does not know.
 #define TENON_DECLARE(function, name, variants, doc) \
-  Result<std::unique_ptr<Accelerator>> build_##function(const CsgTree& tree, AcceleratorOptions& options);
+  Result<std::unique_ptr<Accelerator>> build_##function(const BuildInput& input, AcceleratorOptions& options);
 TENON_ACCELERATORS(TENON_DECLARE)
 #undef TENON_DECLARE
 

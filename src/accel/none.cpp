@@ -31,9 +31,9 @@ class None {
 
 }  // namespace
 
-Result<std::unique_ptr<Accelerator>> build_none(const CsgTree& tree, AcceleratorOptions& options) {
+Result<std::unique_ptr<Accelerator>> build_none(const BuildInput& input, AcceleratorOptions& options) {
   if (Status status = options.finish(); !status) return status.error();
-  return std::unique_ptr<Accelerator>(std::make_unique<StructureAccelerator<None>>(tree, None(tree)));
+  return std::unique_ptr<Accelerator>(std::make_unique<StructureAccelerator<None>>(input.tree, None(input.tree)));
 }
 
 }  // namespace tenon

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tenon/accel/screen_view.h"
 #include "tenon/base/error.h"
 #include "tenon/base/function_ref.h"
 #include "tenon/base/statistics.h"
@@ -92,7 +93,9 @@ std::vector<std::string> accelerator_specs();
 /// Builds a structure.
 /// @param spec  `NAME[:key=value,...]`, as the command line has it
 /// @param tree  the scene; outlives the structure
+/// @param view  the camera its primary rays will come from (RayQuery::pixel_x, pixel_y); none: no such filters
 /// @return the structure, or a usage error: an unknown name or option, with what there is instead
-Result<std::unique_ptr<Accelerator>> build_accelerator(std::string_view spec, const CsgTree& tree);
+Result<std::unique_ptr<Accelerator>> build_accelerator(std::string_view spec, const CsgTree& tree,
+                                                       const ScreenView* view = nullptr);
 
 }  // namespace tenon
