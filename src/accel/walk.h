@@ -20,12 +20,19 @@ class Walk {
   const Ray& ray() const { return query_.ray; }
   TraversalCounters& counters() { return counters_; }
 
+  /// A leaf that stands in several cells is intersected in each of them, as by a paper that has no mailboxes. Only the
+  /// cost differs, never the answer.
+  void use_mailbox(bool on) { mailbox_ = on; }
+
   /// Intersects a leaf with the ray, unless its mailbox knows the answer.
   void reveal(LeafId leaf) {
     if (classifier_.reveal(leaf)) {
       ++counters_.primitive_tests;
-    } else {
+    } else if (mailbox_) {
       ++counters_.mailbox_hits;
+    } else {
+      classifier_.intersect_again(leaf);
+      ++counters_.primitive_tests;
     }
   }
 
@@ -47,6 +54,7 @@ class Walk {
   const RayQuery& query_;
   TraversalCounters& counters_;
   Sink sink_;
+  bool mailbox_ = true;
   bool done_ = false;
 };
 

@@ -124,6 +124,12 @@ class Classifier {
     return true;
   }
 
+  /// Intersects a leaf that was revealed, and drops what comes of it: the cost of a structure without mailboxes.
+  void intersect_again(LeafId leaf) {
+    spans_.clear();
+    source_.crossings(leaf, spans_);
+  }
+
   /// Processes the crossings before `limit`. Every leaf that can change the root before it must have been revealed.
   /// @return the first run that lies wholly before the limit; none when there is none, and then the front is at `limit`
   std::optional<Run> settle(double limit) {
