@@ -1,0 +1,143 @@
+#include <gtest/gtest.h>
+
+#include "csg/csg_tree.h"
+#include "support/scene_builder.h"
+#include "tenon/scene/scene.h"
+
+namespace tenon {
+namespace {
+
+using support::SceneBuilder;
+
+Material named(const char* name, double kt = 0) {
+  Material m;
+  m.name = name;
+  m.kd = 1 - kt;
+  m.ks = 0;
+  m.kt = kt;
+  return m;
+}
+
+Scene compile(SceneBuilder& b, SceneNodeId root, std::vector<Material> materials = {}) {
+  Model model;
+  model.graph = b.finish(root);
+  model.materials = std::move(materials);
+  Diagnostics diagnostics;
+  Result<Scene> scene = compile_scene(std::move(model), diagnostics);
+  EXPECT_TRUE(scene.ok());
+  return std::move(scene).value();
+}
+
+std::string material_of(const Scene& scene, std::size_t leaf) {
+  return scene.material(scene.tree->leaves[leaf].material).name;
+}
+
+TEST(CompileScene, RefusesASceneWithoutSolids) {
+  SceneBuilder b;
+  Model model;
+  model.graph = b.finish(b.unite({}));
+  Diagnostics diagnostics;
+  const Result<Scene> scene = compile_scene(std::move(model), diagnostics);
+  ASSERT_FALSE(scene.ok());
+  EXPECT_EQ(scene.error().kind, ErrorKind::input);
+}
+
+TEST(CompileScene, TheNearestMaterialApplies) {
+  SceneBuilder b;
+  const SceneNodeId inner = b.material(1, b.sphere(1));
+  const Scene scene = compile(b, b.material(0, b.unite({inner, b.cube({1, 1, 1})})), {named("outer"), named("inner")});
+  EXPECT_EQ(material_of(scene, 0), "inner");
+  EXPECT_EQ(material_of(scene, 1), "outer");
+}
+
+TEST(CompileScene, TheOutermostColorApplies) {
+  SceneBuilder b;
+  const Rgba red{1, 0, 0, 1}, blue{0, 0, 1, 1};
+  const Scene scene = compile(b, b.color(red, b.color(blue, b.sphere(1))));
+  EXPECT_EQ(scene.material(scene.tree->leaves[0].material).color, red);
+}
+
+TEST(CompileScene, AMaterialsOwnColourStandsAndAColorFillsInWhereItHasNone) {
+  SceneBuilder b;
+  const Rgba red{1, 0, 0, 1}, blue{0, 0, 1, 1};
+  Material tinted = named("tinted");
+  tinted.color = blue;
+  const SceneNodeId both = b.unite({b.material(0, b.sphere(1)), b.material(1, b.sphere(2))});
+  const Scene scene = compile(b, b.color(red, both), {tinted, named("plain")});
+  EXPECT_EQ(scene.material(scene.tree->leaves[0].material).color, blue);
+  EXPECT_EQ(scene.material(scene.tree->leaves[1].material).color, red);
+  EXPECT_EQ(material_of(scene, 1), "plain");
+}
+
+TEST(CompileScene, AnOpacityLetsLightThrough) {
+  SceneBuilder b;
+  const Scene scene = compile(b, b.color({1, 0, 0, 0.25}, b.sphere(1)));
+  const Material& m = scene.material(scene.tree->leaves[0].material);
+  EXPECT_DOUBLE_EQ(m.kt, 0.75);
+  EXPECT_DOUBLE_EQ(m.kd, 0.25);
+  EXPECT_TRUE(scene.tree->has_media);
+}
+
+TEST(CompileScene, SolidsOfOneTransparentMaterialAreOneMedium) {
+  SceneBuilder b;
+  const Scene scene = compile(
+      b, b.unite({b.material(0, b.sphere(1)), b.material(1, b.sphere(2)), b.material(0, b.sphere(3)), b.sphere(4)}),
+      {named("glass", 0.9), named("water", 0.8)});
+  const auto& leaves = scene.tree->leaves;
+  EXPECT_EQ(leaves[0].medium, leaves[2].medium);
+  EXPECT_NE(leaves[0].medium, leaves[1].medium);
+  EXPECT_EQ(leaves[3].medium, medium_opaque);
+  EXPECT_EQ(scene.medium_ior.size(), 4u);
+}
+
+TEST(CompileScene, ACutFaceShowsTheToolsMaterialOnlyIfItHasOne) {
+  const auto cut_face = [](bool tool_has_material) {
+    SceneBuilder b;
+    const SceneNodeId base = b.material(0, b.cube({2, 2, 2}));
+    const SceneNodeId tool = b.box({0.5, 0.5, 1}, {1.5, 1.5, 3});
+    const SceneNodeId cut = b.subtract({base, tool_has_material ? b.material(1, tool) : tool});
+    const Scene scene = compile(b, cut, {named("base"), named("tool")});
+    support::Tracer tracer(*scene.tree);
+    const Hit hit = tracer.first_hit({{1, 1, 5}, {0, 0, -1}});
+    EXPECT_DOUBLE_EQ(hit.t, 4);
+    EXPECT_EQ(hit.normal, (Vec3{0, 0, 1})) << "out of the solid, whatever the tool's own is";
+    EXPECT_TRUE(hit.entering);
+    return scene.material(hit.material).name;
+  };
+  EXPECT_EQ(cut_face(true), "tool");
+  EXPECT_EQ(cut_face(false), "base");
+}
+
+TEST(CompileScene, TheDefaultCameraSeesTheWholeSolidFromOutside) {
+  for (const Vec3 size :
+       {Vec3{1, 1, 1}, Vec3{100, 1, 1}, Vec3{1, 1, 1000}, Vec3{1e-6, 1e-6, 1e-6}, Vec3{1e6, 1e6, 0.1}}) {
+    const Vec3 corner{3, -5, 7};
+    const Box3 bounds{corner, corner + size};
+    const Camera camera = default_camera(bounds);
+    const Vec3 forward = normalize(camera.at - camera.from);
+    // Every corner within the vertical field of view of a 4:3 picture.
+    const double tan_half = 0.75 * std::tan(0.5 * camera.fov * 3.14159265358979 / 180);
+    for (int i = 0; i < 8; ++i) {
+      const Vec3 p{(i & 1) != 0 ? bounds.upper.x : bounds.lower.x, (i & 2) != 0 ? bounds.upper.y : bounds.lower.y,
+                   (i & 4) != 0 ? bounds.upper.z : bounds.lower.z};
+      const Vec3 v = p - camera.from;
+      const double depth = dot(v, forward);
+      ASSERT_GT(depth, 0);
+      EXPECT_LE(length(v - forward * depth), tan_half * depth * (1 + 1e-9));
+    }
+  }
+}
+
+TEST(SceneFigures, CountsWhatWasModelled) {
+  SceneBuilder b;
+  const Scene scene = compile(b, b.subtract({b.cube({2, 2, 2}), b.unite({b.sphere(1), b.sphere(0.5)})}));
+  const SceneFigures figures = scene_figures(scene);
+  EXPECT_EQ(figures.primitives, 3u);
+  EXPECT_EQ(figures.operations, 2u);
+  EXPECT_EQ(figures.depth, 3);
+  ASSERT_EQ(figures.primitives_by_kind.size(), 2u);
+  EXPECT_TRUE(figures.bounds.contains(Box3{{0, 0, 0}, {2, 2, 2}}));
+}
+
+}  // namespace
+}  // namespace tenon
