@@ -102,6 +102,10 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
     std::free(resolved);
   }
 
+  if (path.empty()) {
+    errno = ENOENT;
+    return file.failure("write");
+  }
   struct stat status {};
   const bool exists = stat(file.path_.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) {

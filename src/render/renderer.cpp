@@ -47,7 +47,7 @@ class TileWorker {
  private:
   void aim(const Tile& tile, const PixelSample& place) {
     queries_.resize(tile.pixels());
-    hits_.assign(tile.pixels(), Hit{});
+    hits_.resize(tile.pixels());
     std::size_t i = 0;
     for (int y = tile.y0; y < tile.y1; ++y) {
       for (int x = tile.x0; x < tile.x1; ++x) {
