@@ -12,7 +12,13 @@
 /// `variants` are the option strings, beside the defaults, that the tests run too: "key=value,key=value;key=value".
 // clang-format off
 #define TENON_ACCELERATORS(X) \
-  X(none, "none", "", "every primitive, every ray: the oracle (Roth 1982)")
+  X(none, "none", "", "every primitive, every ray: the oracle (Roth 1982)") \
+  X(nbvh, "nbvh", "clip=off;order=near", "boxes on the CSG tree itself, clipped by the operators (Zajicek 2012)") \
+  X(median_bvh, "median-bvh", \
+    "volume=sphere;volume=ellipsoid,leaf=3;volume=slabs,filter=on;volume=slabs,normals=13,leaf=4;filter=on", \
+    "median cut over slabs; volumes: box, sphere, ellipsoid, slabs (Bouatouch's course)") \
+  X(goldsmith_bvh, "goldsmith-bvh", "order=given", \
+    "objects inserted one by one where the surface area grows least (Goldsmith & Salmon 1987)")
 // clang-format on
 
 namespace tenon {

@@ -40,6 +40,8 @@ class Walk {
   /// @return true when the ray is done and the structure must stop
   bool settle(double t) {
     if (done_) return true;
+    // The start belongs to no stretch of the ray: a leaf whose box holds the origin may still come.
+    if (!(t > 0)) return false;
     while (const std::optional<Run> run = classifier_.settle(t)) {
       if (!(run->t < query_.t_max) || sink_(*run)) return done_ = true;
     }
