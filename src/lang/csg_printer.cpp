@@ -1,0 +1,204 @@
+#include <array>
+#include <charconv>
+#include <span>
+#include <string_view>
+
+#include "tenon/lang/load.h"
+
+namespace tenon {
+
+namespace {
+
+/// Prints a model as statements of the scene language. Without recursion, for trees are deep.
+class CsgPrinter {
+ public:
+  explicit CsgPrinter(const Model& model) : model_(model) {}
+
+  std::string print() && {
+    print_surroundings();
+    if (model_.graph.root) print_tree();
+    return std::move(out_);
+  }
+
+ private:
+  // Deeper lines are indented no further, or a deep tree's text would grow with the square of its depth.
+  static constexpr std::size_t deepest_indent = 32;
+
+  struct Visit {
+    SceneNodeId node;
+    std::size_t next_child;
+  };
+
+  void print_tree() {
+    std::vector<Visit> path;
+    open(model_.graph.root, 0, path);
+    while (!path.empty()) {
+      Visit& visit = path.back();
+      const SceneNode& node = model_.graph[visit.node];
+      if (visit.next_child < node.children.size()) {
+        open(node.children[visit.next_child++], path.size(), path);
+      } else {
+        indent(path.size() - 1);
+        out_ += "}\n";
+        path.pop_back();
+      }
+    }
+  }
+
+  void open(SceneNodeId id, std::size_t depth, std::vector<Visit>& path) {
+    const SceneNode& node = model_.graph[id];
+    indent(depth);
+    if (const auto* leaf = std::get_if<PrimitiveLeaf>(&node.content)) return primitive(leaf->primitive);
+    if (const auto* operation = std::get_if<SetOperation>(&node.content)) {
+      constexpr std::string_view names[] = {"union", "intersection", "difference", "complement"};
+      out_ += names[static_cast<std::size_t>(*operation)];
+      out_ += "()";
+    } else if (const auto* transform = std::get_if<Transform>(&node.content)) {
+      matrix(transform->parent_from_child);
+    } else if (const auto* attribute = std::get_if<ColorAttribute>(&node.content)) {
+      out_ += "color(";
+      color(attribute->color);
+      out_ += ')';
+    } else if (const auto* of = std::get_if<MaterialAttribute>(&node.content)) {
+      material(model_.materials[of->material.get()]);
+    }
+    out_ += " {\n";
+    path.push_back({id, 0});
+  }
+
+  void indent(std::size_t depth) { out_.append(std::min(depth, deepest_indent), '\t'); }
+
+  void primitive(PrimitiveId id) {
+    const PrimitiveKind& kind = model_.graph.primitives.kind(id);
+    const std::vector<FieldValue> values = model_.graph.primitives.values(id);
+    out_ += kind.scad_name;
+    out_ += '(';
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (i > 0) out_ += ", ";
+      out_ += kind.fields[i].name;
+      out_ += " = ";
+      std::visit([&](const auto& value) { print(value); }, values[i]);
+    }
+    out_ += ");\n";
+  }
+
+  void matrix(const Affine3& map) {
+    out_ += "multmatrix([";
+    for (const auto& row : map.m) {
+      numbers(row);
+      out_ += ", ";
+    }
+    out_ += "[0, 0, 0, 1]])";
+  }
+
+  void material(const Material& m) {
+    out_ += "material(name = ";
+    print(m.name);
+    out_ += m.model == MaterialModel::whitted ? ", model = \"whitted\"" : ", model = \"phong\"";
+    parameter("kd", m.kd);
+    parameter("ks", m.ks);
+    parameter("kt", m.kt);
+    if (m.ka) parameter("ka", *m.ka);
+    parameter("shininess", m.shininess);
+    parameter("ior", m.ior);
+    if (m.color) {
+      out_ += ", color = ";
+      color(*m.color);
+    }
+    parameter("priority", m.priority);
+    out_ += ')';
+  }
+
+  void print_surroundings() {
+    if (const auto& c = model_.camera) {
+      out_ += "camera(from = ";
+      print(c->from);
+      parameter("at", c->at);
+      parameter("up", c->up);
+      if (c->projection == Projection::perspective) {
+        parameter("fov", c->fov);
+      } else {
+        parameter("orthographic", c->width);
+      }
+      out_ += ");\n";
+    }
+    for (const Light& light : model_.lights) {
+      constexpr std::string_view types[] = {"point", "directional", "spot"};
+      out_ += "light(type = \"";
+      out_ += types[static_cast<std::size_t>(light.kind)];
+      out_ += '"';
+      parameter("position", light.position);
+      parameter("direction", light.direction);
+      parameter("angle", light.angle);
+      parameter("softness", light.softness);
+      out_ += ", color = ";
+      color(light.color);
+      parameter("intensity", light.intensity);
+      out_ += ");\n";
+    }
+    if (model_.background) color_statement("background", *model_.background);
+    if (model_.ambient) color_statement("ambient", *model_.ambient);
+  }
+
+  void color_statement(std::string_view name, const Rgba& c) {
+    out_ += name;
+    out_ += '(';
+    color(c);
+    out_ += ");\n";
+  }
+
+  template <class T>
+  void parameter(std::string_view name, const T& value) {
+    out_ += ", ";
+    out_ += name;
+    out_ += " = ";
+    print(value);
+  }
+
+  void color(const Rgba& c) { numbers(std::array{c.r, c.g, c.b, c.a}); }
+
+  void numbers(std::span<const double> values) {
+    out_ += '[';
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (i > 0) out_ += ", ";
+      print(values[i]);
+    }
+    out_ += ']';
+  }
+
+  // The shortest text that reads back to the same double.
+  void print(double value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    out_.append(text.data(), end);
+  }
+  void print(bool value) { out_ += value ? "true" : "false"; }
+  void print(const Vec3& v) { numbers(std::array{v.x, v.y, v.z}); }
+  void print(const std::vector<Plane>& planes) {
+    out_ += '[';
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      if (i > 0) out_ += ", ";
+      numbers(std::array{planes[i].normal.x, planes[i].normal.y, planes[i].normal.z, planes[i].d});
+    }
+    out_ += ']';
+  }
+  void print(const std::string& text) {
+    out_ += '"';
+    for (const char c : text) {
+      if (c == '"' || c == '\\') out_ += '\\';
+      out_ += c;
+    }
+    out_ += '"';
+  }
+
+  const Model& model_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string print_csg(const Model& model) {
+  return CsgPrinter(model).print();
+}
+
+}  // namespace tenon

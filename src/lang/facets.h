@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "lang/module_evaluator.h"
+
+namespace tenon::lang {
+
+/// How many facets a round primitive of radius r gets from $fn, $fa and $fs and the load options; 0 for round.
+int facet_count(const ModuleEvaluator& evaluator, double r);
+
+/// The polyhedron that OpenSCAD makes of a cone or a cylinder from z = bottom to bottom + h: corners on the circles,
+/// the first at angle 0.
+std::vector<Plane> faceted_cone(double h, double r1, double r2, double bottom, int facets);
+/// The polyhedron that OpenSCAD makes of a sphere: rings of corners half a step off the poles.
+std::vector<Plane> faceted_sphere(double r, int facets);
+
+}  // namespace tenon::lang

@@ -1,0 +1,41 @@
+#include "lang/module_evaluator.h"
+
+namespace tenon::lang {
+
+namespace {
+
+std::optional<Solid> not_supported(ModuleCall& call) {
+  fail(call.at(), call.evaluator.environment().text(call.instantiation.name) +
+                      "() is not supported yet; remove it, or disable it with '*'");
+}
+
+}  // namespace
+
+void add_unsupported_modules(BuiltinModuleTable& table, SymbolTable& symbols) {
+  for (const char* name : {"square",
+                           "circle",
+                           "polygon",
+                           "text",
+                           "linear_extrude",
+                           "rotate_extrude",
+                           "dxf_linear_extrude",
+                           "dxf_rotate_extrude",
+                           "import",
+                           "import_stl",
+                           "import_off",
+                           "import_dxf",
+                           "surface",
+                           "projection",
+                           "hull",
+                           "minkowski",
+                           "offset",
+                           "fill",
+                           "roof",
+                           "algebraic",
+                           "bicubic",
+                           "polygon3d"}) {
+    table.emplace(symbols.intern(name), not_supported);
+  }
+}
+
+}  // namespace tenon::lang

@@ -1,0 +1,157 @@
+#include "lang/polyhedron.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace tenon::lang {
+
+namespace {
+
+using Face = std::vector<std::size_t>;
+using EdgeFaces = std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>>;
+
+EdgeFaces edges_of(const std::vector<Face>& faces) {
+  EdgeFaces edges;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (std::size_t i = 0; i < faces[f].size(); ++i) {
+      const std::size_t a = faces[f][i], b = faces[f][(i + 1) % faces[f].size()];
+      if (a != b) edges[std::minmax(a, b)].push_back(f);
+    }
+  }
+  return edges;
+}
+
+/// Gathers the planes of faces; what several of them share is named once.
+class PlaneFinder {
+ public:
+  PlaneFinder(const std::vector<Vec3>& points, const std::vector<Face>& faces) : points_(points), faces_(faces) {
+    std::vector<Vec3> used;
+    for (const Face& face : faces) {
+      for (std::size_t i : face) used.push_back(points[i]);
+    }
+    Vec3 lower = used.front(), upper = used.front();
+    for (const Vec3& p : used) lower = min(lower, p), upper = max(upper, p);
+    // Any point inside a convex shape tells which way its planes face. The centroid of the corners is one.
+    for (const Vec3& p : used) inside_ += p / static_cast<double>(used.size());
+    // Features below 2^-40 of the largest coordinate are promised nowhere; what is less flat than that is bent.
+    tolerance_ = 0x1p-40 * max_component(max(abs(lower), abs(upper)));
+  }
+
+  std::optional<BadPolyhedron> find(const EdgeFaces& edges) {
+    std::vector<std::optional<std::size_t>> plane_of(faces_.size());
+    std::vector<std::vector<std::size_t>> neighbours(faces_.size());
+    for (const auto& [edge, beside] : edges) {
+      for (std::size_t f : beside) {
+        for (std::size_t g : beside) {
+          if (g < f) neighbours[f].push_back(g);
+        }
+      }
+    }
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      for (std::size_t g : neighbours[f]) {
+        if (plane_of[g] && lies_in(f, planes_[*plane_of[g]])) plane_of[f] = plane_of[g];
+      }
+      if (plane_of[f]) continue;
+      const std::optional<Plane> plane = plane_of_face(f);
+      if (!plane) continue;  // without area, and so without a side of its own
+      if (!lies_in(f, *plane)) {
+        return BadPolyhedron{"face " + std::to_string(f) + " of the polyhedron is not flat; split it into triangles"};
+      }
+      plane_of[f] = planes_.size();
+      planes_.push_back(*plane);
+    }
+    return std::nullopt;
+  }
+
+  // A point outside of a plane, with that plane's normal turned away from the inside.
+  bool all_points_are_within() const {
+    for (const Plane& plane : planes_) {
+      for (const Face& face : faces_) {
+        for (std::size_t i : face) {
+          if (dot(plane.normal, points_[i]) - plane.d > tolerance_) return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  bool is_flat() const {
+    return planes_.empty() || std::any_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
+             return std::all_of(faces_.begin(), faces_.end(), [&](const Face& face) {
+               return std::all_of(face.begin(), face.end(), [&](std::size_t i) {
+                 return std::fabs(dot(plane.normal, points_[i]) - plane.d) <= tolerance_;
+               });
+             });
+           });
+  }
+
+  const std::vector<Plane>& planes() const { return planes_; }
+
+ private:
+  bool lies_in(std::size_t f, const Plane& plane) const {
+    return std::all_of(faces_[f].begin(), faces_[f].end(),
+                       [&](std::size_t i) { return std::fabs(dot(plane.normal, points_[i]) - plane.d) <= tolerance_; });
+  }
+
+  // Newell's normal, and the outermost corner's distance; null for a face without area.
+  std::optional<Plane> plane_of_face(std::size_t f) const {
+    const Face& face = faces_[f];
+    const Vec3 origin = points_[face.front()];
+    Vec3 normal;
+    double longest = 0;
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const Vec3 a = points_[face[i]] - origin, b = points_[face[(i + 1) % face.size()]] - origin;
+      normal += cross(a, b);
+      longest = std::max(longest, length(a));
+    }
+    if (!(length(normal) > tolerance_ * longest)) return std::nullopt;
+    normal = normalize(normal);
+    if (dot(normal, inside_ - origin) > 0) normal = -normal;
+    double d = dot(normal, origin);
+    for (std::size_t i : face) d = std::max(d, dot(normal, points_[i]));
+    return Plane{normal, d};
+  }
+
+  const std::vector<Vec3>& points_;
+  const std::vector<Face>& faces_;
+  Vec3 inside_;
+  double tolerance_ = 0;
+  std::vector<Plane> planes_;
+};
+
+}  // namespace
+
+std::variant<std::vector<Plane>, BadPolyhedron> planes_of(const std::vector<Vec3>& points,
+                                                          const std::vector<Face>& faces) {
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (faces[f].size() < 3) {
+      return BadPolyhedron{"face " + std::to_string(f) + " of the polyhedron has fewer than three points"};
+    }
+    for (std::size_t i : faces[f]) {
+      if (i >= points.size()) {
+        return BadPolyhedron{"face " + std::to_string(f) + " of the polyhedron names point " + std::to_string(i) +
+                             ", but there are only " + std::to_string(points.size()) + " points, counted from 0"};
+      }
+    }
+  }
+  if (faces.empty()) return BadPolyhedron{"the polyhedron has no faces; it makes no solid", true};
+  const EdgeFaces edges = edges_of(faces);
+  PlaneFinder finder(points, faces);
+  if (auto bad = finder.find(edges)) return *bad;
+  if (finder.is_flat()) return BadPolyhedron{"the polyhedron has no volume; it makes no solid", true};
+  for (const auto& [edge, beside] : edges) {
+    if (beside.size() == 2) continue;
+    return BadPolyhedron{"the polyhedron is not closed: the edge from point " + std::to_string(edge.first) +
+                         " to point " + std::to_string(edge.second) + " borders " + std::to_string(beside.size()) +
+                         (beside.size() == 1 ? " face" : " faces") + ", not two"};
+  }
+  if (!finder.all_points_are_within()) {
+    return BadPolyhedron{"a polyhedron of non-convex shape is not supported yet; build it as a union of convex ones"};
+  }
+  return finder.planes();
+}
+
+}  // namespace tenon::lang

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "tenon/primitive/primitive_store.h"
+
+namespace tenon::lang {
+
+/// Why points and faces make no convex polyhedron.
+struct BadPolyhedron {
+  std::string message;
+  bool empty = false;  ///< it is only without volume
+};
+
+/// The planes of a convex polyhedron given by its corners and faces. Faces may be oriented either way.
+std::variant<std::vector<Plane>, BadPolyhedron> planes_of(const std::vector<Vec3>& points,
+                                                          const std::vector<std::vector<std::size_t>>& faces);
+
+}  // namespace tenon::lang

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include "tenon/scene/model.h"
+
+namespace tenon::lang {
+
+/// What a statement makes: nothing, all of space, or a node of the scene graph. So empty operands fold away as they
+/// appear, and every node of the graph holds something.
+struct Solid {
+  enum class Extent { nothing, everything, node };
+
+  Extent extent = Extent::nothing;
+  SceneNodeId node;
+
+  static Solid nothing() { return {}; }
+  static Solid everything() { return {Extent::everything, {}}; }
+  static Solid of(SceneNodeId id) { return {Extent::node, id}; }
+
+  bool is_nothing() const { return extent == Extent::nothing; }
+  bool is_everything() const { return extent == Extent::everything; }
+};
+using Solids = std::vector<Solid>;
+
+/// Builds the model, bottom up.
+class SceneBuilder {
+ public:
+  /// Beyond this many nodes (4 GiB of them) a scene is taken for a mistake.
+  static constexpr std::size_t most_nodes = std::size_t{1} << 25;
+
+  Solid unite(const Solids& parts);
+  Solid intersect(const Solids& parts);
+  /// The first part without the others.
+  Solid subtract(const Solids& parts);
+  /// Everything outside the union of the parts.
+  Solid complement(const Solids& parts);
+  /// The union of the parts under a transform, a colour or a material.
+  Solid wrap(const Transform& transform, const Solids& parts) { return wrap_any(transform, parts); }
+  Solid wrap(const ColorAttribute& color, const Solids& parts) { return wrap_any(color, parts); }
+  Solid wrap(const MaterialAttribute& material, const Solids& parts) { return wrap_any(material, parts); }
+  Solid leaf(PrimitiveId primitive);
+
+  /// The id of a material equal to this one.
+  MaterialId intern(const Material& material);
+
+  Model& model() { return model_; }
+  const Model& model() const { return model_; }
+
+ private:
+  template <class Content>
+  Solid wrap_any(const Content& content, const Solids& parts);
+  Solid add(SceneNode node);
+
+  Model model_;
+};
+
+}  // namespace tenon::lang
