@@ -18,7 +18,7 @@ template <class P, class T>
 struct Field {
   std::string_view name;
   Unit unit;
-  T P::* member;
+  T P::*member;
   std::string_view doc;
 };
 template <class P, class T>
@@ -36,8 +36,8 @@ Field(std::string_view, Unit, T P::*, std::string_view) -> Field<P, T>;
 ///   classify(box)          conservative: may say straddles, is never wrong
 ///   normal(point, face)    outward, any length but zero
 template <class P>
-concept SolidPrimitive = std::semiregular<P> && requires(const P& p, const LocalRay& ray, Spans& out,
-                                                         const LocalBox& box, const Vec3& v, std::uint32_t face) {
+concept SolidPrimitive = std::semiregular<P> &&
+    requires(const P& p, const LocalRay& ray, Spans& out, const LocalBox& box, const Vec3& v, std::uint32_t face) {
   { P::name } -> std::convertible_to<std::string_view>;
   { P::scad_name } -> std::convertible_to<std::string_view>;
   { P::doc } -> std::convertible_to<std::string_view>;

@@ -20,6 +20,9 @@ void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placeme
 /// The largest n·p over the primitive's points p, in the local frame; +inf where it is unbounded.
 double support(const PrimitiveStore& store, PrimitiveId id, const Vec3& n);
 
+/// The smallest box of the local frame around the primitive, rounded outward; infinite where it is unbounded.
+Box3 local_bounds(const PrimitiveStore& store, PrimitiveId id);
+
 /// The smallest box of the world around the placed primitive, never too small: rounding is added outward.
 Box3 world_bounds(const PrimitiveStore& store, PrimitiveId id, const Placement& placement);
 

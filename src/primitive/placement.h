@@ -16,8 +16,10 @@ struct BoundedAffine3 {
   Affine3 map;
   Affine3 error{{{{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}}};  ///< entry by entry, >= 0
 
-  /// One transformation as the scene wrote it: entries of its linear part came from sines, cosines and a few products,
-  /// so each is within 4u of the largest in its row; its translation is taken as written.
+  /// One transformation as the scene wrote it. Entries of its linear part came from sines, cosines and a few products,
+  /// so each is within 4u of the largest in its row; the zeros of a row or column with one other entry (a turn around a
+  /// coordinate axis) are exact. A map that sends axes to axes (scaling, mirroring, quarter turns) is exact, and so is
+  /// every translation.
   static BoundedAffine3 elementary(const Affine3& map);
 };
 
@@ -37,8 +39,9 @@ class Placement {
   /// The linear part of the inverse map; its translation is zero, since points are taken relative to world_origin().
   const Affine3& local_from_world_linear() const { return local_from_world_; }
   const Vec3& world_origin() const { return world_origin_; }
-  /// Bound on the distance, per world axis, between a computed world_from_local().point(p) and the exact one, for local
-  /// points with |p| <= extent component by component.
+  /// Bound on the distance, per world axis, between the image of a local point under world_from_local() and under the
+  /// exact map (without the rounding of applying it), for points with |p| <= extent component by component. Infinite
+  /// where an error meets an infinite extent.
   Vec3 world_error(const Vec3& extent) const;
 
   Vec3 point_to_local(const Vec3& world) const { return local_from_world_.direction(world - world_origin_); }
@@ -61,16 +64,19 @@ class Placement {
   LocalBox to_local(const Box3& box) const;
 
  private:
+  // The linear map |A| v for an entrywise bound A >= 0.
+  using Bound3 = std::array<Vec3, 3>;
+  static Vec3 times(const Bound3& rows, const Vec3& v) { return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; }
+
   Affine3 world_from_local_;
   Affine3 world_from_local_error_;
   Affine3 local_from_world_;
   Vec3 world_origin_;
   Vec3 world_center_;
-  // The error of a mapped vector v, per local axis: constant_error_ + relative_error_ * max|v_i|.
+  // The error of a mapped vector v, per local axis: constant_error_ + times(relative_error_, |v|).
   Vec3 constant_error_;
-  Vec3 relative_error_;
+  Bound3 relative_error_;
   Vec3 row_length_;  // Euclidean length of each row of local_from_world_
-  Vec3 row_sum_;     // sum of absolute values of each row
 };
 
 }  // namespace tenon

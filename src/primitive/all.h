@@ -1,0 +1,22 @@
+#pragma once
+
+#include "primitive/box.h"
+#include "primitive/cone.h"
+#include "primitive/convex_polyhedron.h"
+#include "primitive/cylinder.h"
+#include "primitive/half_space.h"
+#include "primitive/hyperboloid.h"
+#include "primitive/paraboloid.h"
+#include "primitive/sphere.h"
+#include "primitive/torus.h"
+
+namespace tenon {
+
+template <SolidPrimitive... P>
+struct PrimitiveList {};
+
+/// Every kind of primitive, in the order of PrimitiveStore::kinds(). For the dispatch unit and the store only.
+using AllPrimitives =
+    PrimitiveList<Sphere, Box, Cylinder, Cone, Torus, Hyperboloid, Paraboloid, HalfSpace, ConvexPolyhedron>;
+
+}  // namespace tenon

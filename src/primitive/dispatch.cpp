@@ -1,0 +1,103 @@
+#include "primitive/dispatch.h"
+
+#include <cmath>
+#include <limits>
+
+#include "primitive/lists.h"
+#include "tenon/math/rounding.h"
+
+namespace tenon {
+
+namespace {
+
+// False when any number of the ray is infinite or not a number: 0 * x is 0 for finite x alone.
+bool is_finite(const LocalRay& ray) {
+  const Vec3 zero = 0.0 * ray.origin + 0.0 * ray.direction + 0.0 * ray.origin_error + 0.0 * ray.direction_error;
+  return zero.x + zero.y + zero.z == 0;
+}
+
+// support(), rounded up. No support function takes more than eight roundings.
+double support_above(const PrimitiveStore& store, PrimitiveId id, const Vec3& n) {
+  const double s = support(store, id, n);
+  return s + gamma(8) * std::fabs(s);
+}
+
+double weigh(double a, double extent) {
+  return a == 0 ? 0 : std::fabs(a) * extent;
+}
+
+}  // namespace
+
+void spans(const PrimitiveStore& store, PrimitiveId id, const LocalRay& ray, Spans& out) {
+  if (!is_finite(ray) || ray.direction == Vec3{}) return;
+  visit(store.lists(), id, [&](const auto& primitive) { primitive.spans(ray, out); });
+}
+
+void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const Ray& ray, double tolerance,
+           int on_face, Spans& out) {
+  const std::size_t begin = out.size();
+  const Placement::MappedRay mapped = placement.to_local(ray, tolerance, on_face);
+  spans(store, id, mapped.ray, out);
+  if (mapped.shift == 0) return;
+  for (std::size_t i = begin; i < out.size(); ++i) {
+    Crossing& c = out[i];
+    if (!std::isfinite(c.t)) continue;
+    c.t += mapped.shift;
+    c.bound = (c.bound + unit_roundoff * std::fabs(c.t)) * (1 + gamma(3));
+  }
+}
+
+double support(const PrimitiveStore& store, PrimitiveId id, const Vec3& n) {
+  return visit(store.lists(), id, [&](const auto& primitive) { return primitive.support(n); });
+}
+
+Box3 local_bounds(const PrimitiveStore& store, PrimitiveId id) {
+  Box3 bounds;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 n;
+    n[axis] = 1;
+    bounds.upper[axis] = support_above(store, id, n);
+    bounds.lower[axis] = -support_above(store, id, -n);
+  }
+  return bounds;
+}
+
+Box3 world_bounds(const PrimitiveStore& store, PrimitiveId id, const Placement& placement) {
+  const Affine3& map = placement.world_from_local();
+  const Box3 local = local_bounds(store, id);
+  const Vec3 extent = max(abs(local.lower), abs(local.upper));
+  const Vec3 error = placement.world_error(extent);
+  Box3 bounds;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 row = map.row(axis);
+    const double origin = map.translation()[axis];
+    // The terms of the support along this row, before they cancel.
+    const double size = weigh(row.x, extent.x) + weigh(row.y, extent.y) + weigh(row.z, extent.z) + std::fabs(origin);
+    const auto above = [&](double support) {
+      if (!std::isfinite(support)) return support;
+      // Along its one bounded direction an unbounded primitive has but the terms of its face.
+      const double terms = std::isfinite(size) ? size : std::fabs(support) + std::fabs(origin);
+      const double rounding = gamma(10) * terms;
+      return support + error[axis] + rounding;
+    };
+    bounds.upper[axis] = above(support_above(store, id, row)) + origin;
+    bounds.lower[axis] = origin - above(support_above(store, id, -row));
+  }
+  return bounds;
+}
+
+Region classify(const PrimitiveStore& store, PrimitiveId id, const LocalBox& box) {
+  // A box that reaches to infinity is never certain; neither is one whose corners overflow.
+  if (!box.bounds.is_bounded()) return Region::straddles;
+  return visit(store.lists(), id, [&](const auto& primitive) { return primitive.classify(box); });
+}
+
+Vec3 normal(const PrimitiveStore& store, PrimitiveId id, const Vec3& point, std::uint32_t face) {
+  return visit(store.lists(), id, [&](const auto& primitive) { return primitive.normal(point, face); });
+}
+
+double cost(const PrimitiveStore& store, PrimitiveId id) {
+  return visit(store.lists(), id, [](const auto& primitive) { return primitive.relative_cost; });
+}
+
+}  // namespace tenon

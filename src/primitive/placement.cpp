@@ -1,0 +1,211 @@
+#include "primitive/placement.h"
+
+#include <cmath>
+
+#include "tenon/math/rounding.h"
+
+namespace tenon {
+
+namespace {
+
+using Matrix3 = std::array<std::array<double, 3>, 3>;
+
+bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool is_finite(const Affine3& map) {
+  return is_finite(map.row(0)) && is_finite(map.row(1)) && is_finite(map.row(2)) && is_finite(map.translation());
+}
+
+// A sum whose rounding errors are kept: value() is the rounded sum, slip() what all its roundings amount to.
+class TrackedSum {
+ public:
+  void add(double a) {
+    const double sum = sum_ + a;
+    slip_ += sum_error(sum_, a, sum);
+    sum_ = sum;
+  }
+  void add_product(double a, double b) {
+    const double product = a * b;
+    slip_ += product_error(a, b, product);
+    magnitude_ += std::fabs(product);
+    add(product);
+  }
+  double value() const { return sum_; }
+  // slip_ itself is a sum of up to eight terms, each at most u times the magnitude; gamma(8) of that is its rounding.
+  double error() const { return std::fabs(slip_) + gamma(8) * gamma(8) * magnitude_; }
+  double exact() const { return sum_ + slip_; }
+
+ private:
+  double sum_ = 0;
+  double slip_ = 0;
+  double magnitude_ = 0;
+};
+
+// a * v where an exact zero silences an infinite v.
+double weigh(double a, double v) {
+  return a == 0 ? 0 : a * v;
+}
+
+}  // namespace
+
+BoundedAffine3 BoundedAffine3::elementary(const Affine3& map) {
+  std::array<int, 3> in_row{}, in_column{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (map.m[i][j] == 0) continue;
+      ++in_row[i];
+      ++in_column[j];
+    }
+  }
+  BoundedAffine3 result;
+  result.map = map;
+  const bool axes_to_axes = in_row == std::array{1, 1, 1} && in_column == std::array{1, 1, 1};
+  if (axes_to_axes) return result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double largest = max_component(abs(map.row(static_cast<int>(i))));
+    for (std::size_t j = 0; j < 3; ++j) {
+      const bool exact_zero = map.m[i][j] == 0 && (in_row[i] == 1 || in_column[j] == 1);
+      if (!exact_zero) result.error.m[i][j] = 4 * unit_roundoff * largest;
+    }
+  }
+  return result;
+}
+
+// |A B - fl(A B)| <= |A| E_B + E_A |B| + E_A E_B + rounding; the rounding is measured, so that exact products stay
+// exact.
+BoundedAffine3 operator*(const BoundedAffine3& a, const BoundedAffine3& b) {
+  BoundedAffine3 c;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      TrackedSum entry;
+      double error = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        entry.add_product(a.map.m[i][k], b.map.m[k][j]);
+        error +=
+            std::fabs(a.map.m[i][k]) * b.error.m[k][j] + a.error.m[i][k] * (std::fabs(b.map.m[k][j]) + b.error.m[k][j]);
+      }
+      if (j == 3) {
+        entry.add(a.map.m[i][3]);
+        error += a.error.m[i][3];
+      }
+      c.map.m[i][j] = entry.value();
+      c.error.m[i][j] = (error + entry.error()) * (1 + gamma(12));
+    }
+  }
+  return c;
+}
+
+// The inverse's error. Let W* = W + δW be the exact map, |δW| <= E, M the computed inverse and M* the exact one. Then
+// M* - M = (I - M W*) M*, with |I - M W*| <= Q := |I - M W| + |M| E. Take the local axes in units of the vector x of
+// row sums of |M| (so that nothing depends on how the local frame is scaled): when Q x <= x / 2, the series
+// M* = M + R M + R² M + ..., R = I - M W*, converges, and since |M| e_j <= x and (I - Q)^-1 x <= 2 x,
+//   |M* - M| e_j <= Q |M| e_j + Q² (I - Q)^-1 |M| e_j <= Q |M| e_j + 2 Q (Q x).
+std::optional<Placement> Placement::create(const BoundedAffine3& world_from_local, const Vec3& local_center) {
+  const Affine3& w = world_from_local.map;
+  const Affine3& e = world_from_local.error;
+  if (!is_finite(w) || !is_finite(e)) return std::nullopt;
+  Affine3 linear = w;
+  for (auto& row : linear.m) row[3] = 0;
+  const std::optional<Affine3> inverse = linear.inverse();
+  if (!inverse) return std::nullopt;
+  const Affine3& m = *inverse;
+
+  Matrix3 q{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      TrackedSum residual;
+      residual.add(i == j ? -1 : 0);
+      double error = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        residual.add_product(m.m[i][k], w.m[k][j]);
+        error += std::fabs(m.m[i][k]) * e.m[k][j];
+      }
+      q[i][j] = (std::fabs(residual.exact()) + gamma(8) * residual.error() + error) * (1 + gamma(12));
+    }
+  }
+  const auto times_q = [&q](std::size_t i, const Vec3& v) { return q[i][0] * v.x + q[i][1] * v.y + q[i][2] * v.z; };
+  Vec3 x;
+  for (int i = 0; i < 3; ++i) x[i] = dot(abs(m.row(i)), {1, 1, 1});
+  Vec3 qx;
+  for (int i = 0; i < 3; ++i) {
+    qx[i] = times_q(static_cast<std::size_t>(i), x);
+    if (!(qx[i] <= x[i] / 2)) return std::nullopt;
+  }
+
+  Placement p;
+  p.world_from_local_ = w;
+  p.world_from_local_error_ = e;
+  p.local_from_world_ = m;
+  for (auto& row : p.local_from_world_.m) row[3] = 0;
+  p.world_origin_ = w.translation();
+  p.world_center_ = w.point(local_center);
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const Vec3 row = abs(m.row(i));
+    Vec3 error;
+    for (int j = 0; j < 3; ++j) error[j] = times_q(k, abs(m.column(j))) + 2 * times_q(k, qx);
+    // M v takes three roundings in each sum, v = (o - w) + shift d another two; one more covers products of errors.
+    p.relative_error_[k] = (error + gamma(6) * row) * (1 + gamma(12));
+    p.constant_error_[i] = dot(row + error, e.translation()) * (1 + gamma(6));
+    p.row_length_[i] = length(m.row(i)) * (1 + gamma(6));
+  }
+  if (!is_finite(p.constant_error_) || !is_finite(p.row_length_) || !is_finite(p.world_center_)) return std::nullopt;
+  return p;
+}
+
+Vec3 Placement::world_error(const Vec3& extent) const {
+  Vec3 error;
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    for (int j = 0; j < 3; ++j) {
+      error[i] += weigh(world_from_local_error_.m[k][static_cast<std::size_t>(j)], extent[j]);
+    }
+    error[i] = (error[i] + world_from_local_error_.m[k][3]) * (1 + gamma(6));
+  }
+  return error;
+}
+
+Placement::MappedRay Placement::to_local(const Ray& ray, double tolerance, int on_face) const {
+  MappedRay mapped;
+  if (on_face < 0) {
+    mapped.shift = dot(world_center_ - ray.origin, ray.direction) / dot(ray.direction, ray.direction);
+    if (!std::isfinite(mapped.shift)) mapped.shift = 0;
+  }
+  const Vec3 from_world_origin = ray.origin - world_origin_;
+  const Vec3 v = from_world_origin + mapped.shift * ray.direction;
+
+  LocalRay& local = mapped.ray;
+  local.origin = local_from_world_.direction(v);
+  local.direction = local_from_world_.direction(ray.direction);
+  local.direction_error = times(relative_error_, abs(ray.direction));
+  local.origin_error = constant_error_ + tolerance * row_length_ + times(relative_error_, abs(from_world_origin)) +
+                       std::fabs(mapped.shift) * local.direction_error;
+  local.on_face = on_face;
+  return mapped;
+}
+
+LocalBox Placement::to_local(const Box3& box) const {
+  const Vec3 center = box.center() - world_origin_;
+  const Vec3 half = (box.upper - box.lower) * 0.5;
+
+  LocalBox local;
+  local.center = local_from_world_.direction(center);
+  Vec3 reach;
+  for (int j = 0; j < 3; ++j) {
+    local.half_edges[static_cast<std::size_t>(j)] = local_from_world_.column(j) * half[j];
+    reach += abs(local.half_edges[static_cast<std::size_t>(j)]);
+  }
+  // center ± half deviates from the box's corner by a rounding of each end, two of the halves and one of the offset.
+  const Vec3 slip = unit_roundoff * (2 * (abs(box.lower) + abs(box.upper)) + abs(center) + half);
+  const std::array<Vec3, 3> rows{abs(local_from_world_.row(0)), abs(local_from_world_.row(1)),
+                                 abs(local_from_world_.row(2))};
+  // A corner computed from the local centre and half edges takes three more roundings.
+  local.error = constant_error_ + times(relative_error_, abs(center) + half) +
+                (times(rows, slip) + gamma(4) * (abs(local.center) + reach)) * (1 + gamma(6));
+  local.bounds = {local.center - reach - local.error, local.center + reach + local.error};
+  return local;
+}
+
+}  // namespace tenon
