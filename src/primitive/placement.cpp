@@ -1,5 +1,6 @@
 #include "primitive/placement.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tenon/math/rounding.h"
@@ -43,6 +44,28 @@ class TrackedSum {
   double magnitude_ = 0;
 };
 
+// Euclidean norm of all entries of the linear part, rounded up; at least the norm of the map.
+double frobenius_norm(const Affine3& linear) {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) sum += dot(linear.row(i), linear.row(i));
+  return std::sqrt(sum) * (1 + gamma(12));
+}
+
+// How much the linear part stretches a vector at most, rounded up: the root of the largest row sum of L^T L, which
+// bounds its largest eigenvalue (Gershgorin). For rotations with uniform scale it is the scale.
+double stretch(const Affine3& map) {
+  double most = 0;
+  for (int i = 0; i < 3; ++i) {
+    double sum = 0;
+    for (int j = 0; j < 3; ++j) {
+      const Vec3 a = map.column(i), b = map.column(j);
+      sum += std::fabs(dot(a, b)) + gamma(4) * dot(abs(a), abs(b));
+    }
+    most = std::max(most, sum);
+  }
+  return std::sqrt(most) * (1 + gamma(8));
+}
+
 // a * v where an exact zero silences an infinite v.
 double weigh(double a, double v) {
   return a == 0 ? 0 : a * v;
@@ -70,13 +93,15 @@ BoundedAffine3 BoundedAffine3::elementary(const Affine3& map) {
       if (!exact_zero) result.error.m[i][j] = 4 * unit_roundoff * largest;
     }
   }
+  result.linear_error = frobenius_norm(result.error);
   return result;
 }
 
-// |A B - fl(A B)| <= |A| E_B + E_A |B| + E_A E_B + rounding; the rounding is measured, so that exact products stay
-// exact.
+// |A B - fl(A B)| <= |A| E_B + E_A |B| + E_A E_B + rounding, entry by entry and in the norm; the smaller of the two
+// counts. The rounding is measured, so that exact products stay exact.
 BoundedAffine3 operator*(const BoundedAffine3& a, const BoundedAffine3& b) {
   BoundedAffine3 c;
+  Affine3 rounding;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 4; ++j) {
       TrackedSum entry;
@@ -91,8 +116,21 @@ BoundedAffine3 operator*(const BoundedAffine3& a, const BoundedAffine3& b) {
         error += a.error.m[i][3];
       }
       c.map.m[i][j] = entry.value();
+      rounding.m[i][j] = entry.error();
       c.error.m[i][j] = (error + entry.error()) * (1 + gamma(12));
     }
+  }
+
+  const double a_stretch = stretch(a.map), b_stretch = stretch(b.map), b_translation = length(b.map.translation());
+  c.linear_error =
+      (a_stretch * b.linear_error + a.linear_error * (b_stretch + b.linear_error) + frobenius_norm(rounding)) *
+      (1 + gamma(12));
+  c.translation_error = (a_stretch * b.translation_error + a.linear_error * (b_translation + b.translation_error) +
+                         a.translation_error + length(rounding.translation())) *
+                        (1 + gamma(20));
+  for (auto& row : c.error.m) {
+    for (std::size_t j = 0; j < 3; ++j) row[j] = std::min(row[j], c.linear_error);
+    row[3] = std::min(row[3], c.translation_error);
   }
   return c;
 }

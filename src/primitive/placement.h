@@ -15,6 +15,10 @@ namespace tenon {
 struct BoundedAffine3 {
   Affine3 map;
   Affine3 error{{{{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}}};  ///< entry by entry, >= 0
+  /// The Euclidean norms of the linear part's error and of the translation's. Entry by entry the bound on a product of
+  /// rotations grows with each factor, although a rotation enlarges no error; the norm's does not.
+  double linear_error = 0;
+  double translation_error = 0;
 
   /// One transformation as the scene wrote it. Entries of its linear part came from sines, cosines and a few products,
   /// so each is within 4u of the largest in its row; the zeros of a row or column with one other entry (a turn around a
