@@ -120,6 +120,10 @@ inline void emit_chord(const Chord& chord, Spans& out) {
     if (!std::isfinite(middle)) return;
     enter.t = leave.t = middle;
   }
+  // Each exact end lies on its side of the other, so no interval needs to reach past the other's: that of a face which
+  // the ray skims would otherwise take in whatever stands behind the solid.
+  enter.hi = std::min(enter.hi, leave.hi);
+  leave.lo = std::max(leave.lo, enter.lo);
   // An end at infinity has no error. The last factor covers the roundings of the bound itself.
   const auto crossing = [](const End& end, bool entering) {
     const double bound = std::isfinite(end.t) ? std::max({end.hi - end.t, end.t - end.lo, 0.0}) * (1 + gamma(4)) : 0.0;

@@ -11,7 +11,8 @@ namespace {
 using support::SceneBuilder;
 using support::Tracer;
 
-constexpr int pixels = 512;
+// The oracle is judged on 512 x 512 pixels as POV-Ray was; the structures, which must equal it anyway, on fewer.
+constexpr int oracle_pixels = 512, structure_pixels = 144;
 
 struct Tool {
   const char* name;
@@ -76,7 +77,7 @@ CsgTree cut(const Tool& tool, const Frame& frame, double past) {
 }
 
 // The rays of a parallel view onto the unit cube, in the frame of the scene.
-Ray view_ray(const View& view, const Frame& frame, int x, int y) {
+Ray view_ray(const View& view, const Frame& frame, int pixels, int x, int y) {
   const Affine3 turn = Affine3::rotate(view.degrees);
   // Off the cube's own lattice by an irrational share of a pixel, so that no ray runs in a face.
   const double u = (x + 0.5 + 0.1 * std::sqrt(2.0)) / pixels, v = (y + 0.5 + 0.1 * std::sqrt(3.0)) / pixels;
@@ -97,6 +98,7 @@ class FlushCut : public testing::TestWithParam<std::tuple<std::string, Tool>> {}
 
 TEST_P(FlushCut, ShowsNoWrongPixel) {
   const auto& [spec, tool] = GetParam();
+  const int pixels = spec == "none" ? oracle_pixels : structure_pixels;
   for (const Frame& frame : frames) {
     const CsgTree flush_tree = cut(tool, frame, 0), reference_tree = cut(tool, frame, 0.5);
     Tracer flush(flush_tree, spec), reference(reference_tree, "none");
@@ -104,7 +106,7 @@ TEST_P(FlushCut, ShowsNoWrongPixel) {
       int wrong = 0;
       for (int y = 0; y < pixels; ++y) {
         for (int x = 0; x < pixels; ++x) {
-          const Ray ray = view_ray(view, frame, x, y);
+          const Ray ray = view_ray(view, frame, pixels, x, y);
           wrong += !same(flush.first_hit(ray), reference.first_hit(ray));
         }
       }
@@ -131,6 +133,7 @@ INSTANTIATE_TEST_SUITE_P(Structures, FlushCut,
 
 // That the comparison can fail: a tool that stops short of the face by more than the tolerance leaves a skin.
 TEST(FlushCutControl, ASkinIsSeen) {
+  constexpr int pixels = structure_pixels;
   const Frame& frame = frames[0];
   const CsgTree skin_tree = cut(tools[0], frame, -1e-9), reference_tree = cut(tools[0], frame, 0.5);
   Tracer skin(skin_tree), reference(reference_tree);
@@ -138,11 +141,11 @@ TEST(FlushCutControl, ASkinIsSeen) {
   int wrong = 0;
   for (int y = 0; y < pixels; ++y) {
     for (int x = 0; x < pixels; ++x) {
-      const Ray ray = view_ray(from_below, frame, x, y);
+      const Ray ray = view_ray(from_below, frame, pixels, x, y);
       wrong += !same(skin.first_hit(ray), reference.first_hit(ray));
     }
   }
-  EXPECT_GT(wrong, 10000);
+  EXPECT_GT(wrong, 1000);
 }
 
 }  // namespace
