@@ -40,34 +40,34 @@ Result<CameraRays> CameraRays::create(const Camera& camera, int width, int heigh
   const Vec3 view = camera.at - camera.from;
   if (view == Vec3{} || !is_finite(view)) return camera_error("it stands where it looks at; move `from` or `at`");
 
-  CameraRays rays;
-  rays.projection_ = camera.projection;
-  rays.from_ = camera.from;
-  rays.forward_ = normalize(view);
-  rays.right_ = right_of(rays.forward_, camera.up);
-  rays.up_ = cross(rays.right_, rays.forward_);
-  rays.width_ = width;
-  rays.height_ = height;
-  if (camera.projection == Projection::perspective) {
-    if (!(camera.fov > 0 && camera.fov < 180)) {
-      return camera_error("the field of view must lie between 0 and 180 degrees");
-    }
-    rays.half_width_ = std::tan(camera.fov * (std::numbers::pi / 360));
-  } else {
+  ScreenView screen;
+  screen.eye = camera.from;
+  screen.forward = normalize(view);
+  screen.right = right_of(screen.forward, camera.up);
+  screen.up = cross(screen.right, screen.forward);
+  screen.width = width;
+  screen.height = height;
+  screen.orthographic = camera.projection == Projection::orthographic;
+  if (screen.orthographic) {
     if (!(camera.width > 0) || !std::isfinite(camera.width)) {
       return camera_error("the width that an orthographic view covers must be positive");
     }
-    rays.half_width_ = camera.width / 2;
+    screen.half_width = camera.width / 2;
+  } else {
+    if (!(camera.fov > 0 && camera.fov < 180)) {
+      return camera_error("the field of view must lie between 0 and 180 degrees");
+    }
+    screen.half_width = std::tan(camera.fov * (std::numbers::pi / 360));
   }
-  return rays;
+  return CameraRays(screen);
 }
 
 Ray CameraRays::ray(double x, double y) const {
   // 2x - width is exact at pixel centres, so the two halves of the picture are mirror images to the last bit.
-  const double scale = half_width_ / width_;
-  const Vec3 offset = ((2 * x - width_) * scale) * right_ + ((height_ - 2 * y) * scale) * up_;
-  if (projection_ == Projection::orthographic) return {from_ + offset, forward_};
-  return {from_, normalize(forward_ + offset)};
+  const double scale = view_.half_width / view_.width;
+  const Vec3 offset = ((2 * x - view_.width) * scale) * view_.right + ((view_.height - 2 * y) * scale) * view_.up;
+  if (view_.orthographic) return {view_.eye + offset, view_.forward};
+  return {view_.eye, normalize(view_.forward + offset)};
 }
 
 }  // namespace tenon

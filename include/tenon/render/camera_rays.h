@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tenon/accel/screen_view.h"
 #include "tenon/base/error.h"
 #include "tenon/math/ray.h"
 #include "tenon/scene/camera.h"
@@ -19,13 +20,13 @@ class CameraRays {
   /// (0.5, 0.5). The direction has length 1, so t is a distance.
   Ray ray(double x, double y) const;
 
- private:
-  CameraRays() = default;
+  /// What a structure may be built for (build_accelerator).
+  const ScreenView& view() const { return view_; }
 
-  Projection projection_ = Projection::perspective;
-  Vec3 from_, forward_, right_, up_;
-  double width_ = 1, height_ = 1;
-  double half_width_ = 1;  ///< of the picture's plane: at distance 1 in perspective, in the scene's units otherwise
+ private:
+  explicit CameraRays(const ScreenView& view) : view_(view) {}
+
+  ScreenView view_;
 };
 
 }  // namespace tenon

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "tenon/base/error.h"
+#include "tenon/image/picture_file.h"
+#include "tenon/scene/camera.h"
+
+namespace tenon {
+
+/// What `tenon render` is told beyond the scene, as text.
+struct RenderArguments {
+  std::string output;
+  std::string size = "640x480";
+  std::string integrator = "whitted";
+  std::string camera;
+  std::string statistics;
+  int samples = 1;
+  int depth = 8;
+  int bits = 0;
+  bool orthographic = false;
+
+  void add_to(CLI::App& command);
+};
+
+/// The same, understood.
+struct RenderPlan {
+  std::string output;  ///< "-": standard output
+  PictureFormat format = PictureFormat::png;
+  int bits = 8;
+  int width = 0, height = 0;
+  std::optional<Camera> camera;
+};
+
+/// @param scene_stem  names the picture when nothing else does; empty for a scene without a name
+/// @return the plan, or a usage error
+Result<RenderPlan> plan_render(const RenderArguments& arguments, const std::string& scene_stem);
+
+}  // namespace tenon

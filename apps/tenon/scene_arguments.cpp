@@ -1,0 +1,141 @@
+#include "scene_arguments.h"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "commands.h"
+#include "tenon/base/parallel_for.h"
+#include "tenon/lang/load.h"
+#include "tenon/render/camera_rays.h"
+
+namespace tenon {
+
+namespace {
+
+constexpr int max_threads = 4096;
+
+std::optional<int> parse_threads(const std::string& text) {
+  if (text == "auto") return available_threads();
+  int count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error != std::errc() || end != text.data() + text.size() || count < 0 || count > max_threads) return std::nullopt;
+  return count == 0 ? available_threads() : count;
+}
+
+Result<LoadOptions> load_options(const SceneArguments& arguments) {
+  LoadOptions options;
+  options.facets = arguments.facets == "always"  ? Facets::always
+                   : arguments.facets == "never" ? Facets::never
+                                                 : Facets::automatic;
+  for (const std::string& definition : arguments.definitions) {
+    const std::size_t equals = definition.find('=');
+    if (equals == 0 || equals == std::string::npos) {
+      return usage_error("-D takes name=value, such as -D size=10, not '" + definition + "'");
+    }
+    options.definitions.emplace_back(definition.substr(0, equals), definition.substr(equals + 1));
+  }
+  return options;
+}
+
+// The view at the point the camera looks at, with parallel rays.
+Camera made_orthographic(Camera camera) {
+  if (camera.projection == Projection::orthographic) return camera;
+  camera.projection = Projection::orthographic;
+  camera.width = 2 * length(camera.at - camera.from) * std::tan(camera.fov * (std::numbers::pi / 360));
+  return camera;
+}
+
+}  // namespace
+
+void SceneArguments::add_to(CLI::App& command) {
+  command.add_option("SCENE", path, "The scene file; - reads standard input")->type_name("")->required();
+  command.add_option("-D", definitions, "Set a variable of the scene: name=value (may be repeated)")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--facets", facets, "When $fn makes polygons of round things: auto (below 13), always, never")
+      ->type_name("WHEN")
+      ->check(CLI::IsMember({"auto", "always", "never"}));
+  command.add_flag("-q,--quiet", quiet, "Show no progress");
+}
+
+std::string SceneArguments::stem() const {
+  return path == "-" ? "" : std::filesystem::path(path).stem().string();
+}
+
+void TracingArguments::add_to(CLI::App& command) {
+  command.add_option("--accel", accelerator, "Acceleration structure: as listed below")
+      ->type_name("NAME[:KEY=VALUE,...]")
+      ->capture_default_str();
+  command.add_option("-j,--threads", threads, "Number of threads; auto or 0: one for each core")
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+Status TracingArguments::check() const {
+  if (!parse_threads(threads)) {
+    return usage_error("--threads takes a number up to " + std::to_string(max_threads) + " or auto, not '" + threads +
+                       "'");
+  }
+  const std::string name = accelerator.substr(0, accelerator.find(':'));
+  const std::vector<std::string_view> names = accelerator_names();
+  if (std::find(names.begin(), names.end(), name) != names.end()) return success();
+  std::string there_are;
+  for (std::string_view n : names) there_are += (there_are.empty() ? "" : ", ") + std::string(n);
+  return usage_error("there is no acceleration structure '" + name + "'; there are: " + there_are);
+}
+
+std::string accelerator_help() {
+  std::string text = "Acceleration structures (--accel):";
+  for (std::string_view name : accelerator_names()) {
+    text += "\n  " + std::string(name) + std::string(name.size() < 22 ? 22 - name.size() : 1, ' ') +
+            std::string(accelerator_doc(name));
+  }
+  return text;
+}
+
+int TracingArguments::thread_count() const {
+  return parse_threads(threads).value_or(1);
+}
+
+Result<Model> load(const SceneArguments& arguments, Console& console) {
+  const Result<LoadOptions> options = load_options(arguments);
+  if (!options) return options.error();
+  console.progress().begin("reading " + arguments.path);
+  Result<Model> model = load_model(arguments.path, *options, console.diagnostics());
+  console.progress().end();
+  return model;
+}
+
+Result<TraceableScene> prepare(const SceneArguments& arguments, const TracingArguments& tracing, Console& console,
+                               const ViewArguments* view) {
+  if (Status status = tracing.check(); !status) return status.error();
+  Result<Model> model = load(arguments, console);
+  if (!model) return model.error();
+  if (view != nullptr && view->camera) model->camera = view->camera;
+
+  console.progress().begin("compiling " + arguments.path);
+  Result<Scene> scene = compile_scene(std::move(*model), console.diagnostics());
+  if (!scene) return scene.error();
+  std::optional<ScreenView> screen;
+  if (view != nullptr) {
+    if (view->orthographic) scene->camera = made_orthographic(scene->camera);
+    const Result<CameraRays> rays = CameraRays::create(scene->camera, view->width, view->height);
+    if (!rays) return rays.error();
+    screen = rays->view();
+  }
+
+  console.progress().begin("building " + tracing.accelerator);
+  const auto begun = std::chrono::steady_clock::now();
+  Result<std::unique_ptr<Accelerator>> accelerator =
+      build_accelerator(tracing.accelerator, *scene->tree, screen ? &*screen : nullptr);
+  if (!accelerator) return accelerator.error();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  console.progress().end();
+  return TraceableScene{std::move(*scene), std::move(*accelerator), seconds};
+}
+
+}  // namespace tenon

@@ -1,0 +1,217 @@
+#include <png.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+#include <tuple>
+
+#include "apps/program_test.h"
+
+namespace tenon {
+namespace {
+
+using Json = nlohmann::json;
+
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<unsigned char> rgb;
+
+  std::vector<int> at(int x, int y) const {
+    const std::size_t i = 3 * static_cast<std::size_t>(y * width + x);
+    return {rgb[i], rgb[i + 1], rgb[i + 2]};
+  }
+};
+
+Picture decode(const std::string& bytes) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) return {};
+  image.format = PNG_FORMAT_RGB;
+  Picture picture{static_cast<int>(image.width), static_cast<int>(image.height), {}};
+  picture.rgb.resize(PNG_IMAGE_SIZE(image));
+  png_image_finish_read(&image, nullptr, picture.rgb.data(), 0, nullptr);
+  return picture;
+}
+
+class RenderCommand : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("ball.scad", "difference() { sphere(1); translate([0, 0, 1]) cube(1, center = true); }\n");
+  }
+};
+
+TEST_F(RenderCommand, PictureIsNamedAfterTheSceneAndShowsIt) {
+  const Outcome outcome = run({"render", "ball.scad", "--size", "64x48"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_TRUE(contains(outcome.err, "ball.png: 64x48")) << outcome.err;
+  const Picture picture = decode(read("ball.png"));
+  ASSERT_EQ(picture.width, 64);
+  ASSERT_EQ(picture.height, 48);
+  EXPECT_NE(picture.at(32, 24), picture.at(0, 0));
+  EXPECT_EQ(picture.at(63, 47), picture.at(0, 0));
+  EXPECT_EQ(files(), 2U);
+}
+
+TEST_F(RenderCommand, SameBytesForAnyNumberOfThreads) {
+  for (const std::string output : {"out.png", "out.exr"}) {
+    std::set<std::string> all;
+    for (const std::string threads : {"1", "2", "auto"}) {
+      const Outcome outcome =
+          run({"render", "ball.scad", "-q", "--size", "70x50", "--spp", "3", "--threads", threads, "-o", output});
+      ASSERT_EQ(outcome.status, 0) << outcome.err;
+      all.insert(read(output));
+    }
+    EXPECT_EQ(all.size(), 1U);
+  }
+}
+
+TEST_F(RenderCommand, StandardInputAndStandardOutput) {
+  const Outcome outcome = run({"render", "-", "-o", "-", "--size", "20x10", "--quiet"}, "sphere(1);");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(decode(outcome.out).width, 20);
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(RenderCommand, FormatsAndBits) {
+  const std::vector<std::tuple<std::string, std::string, std::string>> formats{
+      {"a.png", "8", "\x89PNG"}, {"b.png", "16", "\x89PNG"}, {"c.exr", "16", "v/1\x01"}, {"d.EXR", "32", "v/1\x01"}};
+  for (const auto& [name, bits, begins] : formats) {
+    ASSERT_EQ(run({"render", "ball.scad", "-q", "--size", "8x8", "--bits", bits, "-o", name}).status, 0);
+    EXPECT_EQ(read(name).substr(0, 4), begins) << name;
+  }
+}
+
+TEST_F(RenderCommand, CameraOnTheCommandLine) {
+  write("two.scad",
+        "color(\"red\") translate([-1, 0, 0]) sphere(0.5); color(\"blue\") translate([1, 0, 0]) sphere(0.5);");
+  for (const bool orthographic : {false, true}) {
+    std::vector<std::string> words{"render", "two.scad", "-q", "--size", "60x40", "--camera", "0,-5,0,0,0,0,60"};
+    if (orthographic) words.push_back("--orthographic");
+    ASSERT_EQ(run(words).status, 0);
+    const Picture picture = decode(read("two.png"));
+    const auto left = picture.at(19, 20), right = picture.at(40, 20);
+    EXPECT_GT(left[0], left[2]);
+    EXPECT_GT(right[2], right[0]);
+  }
+}
+
+TEST_F(RenderCommand, DefinitionsReachTheScene) {
+  write("sized.scad", "r = 1; camera(from = [0, -10, 0], at = [0, 0, 0], fov = 40); sphere(r);");
+  ASSERT_EQ(run({"render", "sized.scad", "-q", "--size", "40x40", "-o", "small.png"}).status, 0);
+  ASSERT_EQ(run({"render", "sized.scad", "-q", "--size", "40x40", "-D", "r=3", "-o", "large.png"}).status, 0);
+  const Picture small = decode(read("small.png")), large = decode(read("large.png"));
+  EXPECT_EQ(small.at(7, 20), small.at(0, 0));
+  EXPECT_NE(large.at(7, 20), large.at(0, 0));
+}
+
+TEST_F(RenderCommand, StatisticsHaveTheirNames) {
+  ASSERT_EQ(run({"render", "ball.scad", "-q", "--size", "32x24", "--spp", "2", "--stats", "s.json"}).status, 0);
+  const Json json = Json::parse(read("s.json"));
+  for (const char* name : {"accel", "threads", "build_seconds", "memory_bytes", "render_seconds", "rays",
+                           "rays_per_second", "primitive_tests", "cells_visited", "next_box_calls", "mailbox_hits",
+                           "boxes", "depth", "mismatches", "seam_faults", "per_kind"}) {
+    EXPECT_TRUE(json.contains(name)) << name;
+  }
+  EXPECT_EQ(json["rays"]["primary"], 32 * 24 * 2);
+  EXPECT_EQ(json["seam_faults"], 0);
+  std::uint64_t tests = 0;
+  for (const char* kind : {"primary", "shadow", "reflected", "refracted", "diffuse"}) {
+    tests += json["per_kind"][kind]["primitive_tests"].get<std::uint64_t>();
+  }
+  EXPECT_EQ(json["primitive_tests"], tests);
+}
+
+// Each scene that is wrong, and what the message must hold.
+TEST_F(RenderCommand, WrongScenesLeaveNothing) {
+  write("empty.scad", "");
+  write("syntax.scad", "sphere(1);\ncube(2;\n");
+  write("junk.scad", std::string("\x7f"
+                                 "ELF\x02\x01\x00\x00\xff\xfe\x80",
+                                 11) +
+                         std::string(5000, '\xaa'));
+  std::filesystem::create_directory(folder / "folder.scad");
+  const std::vector<std::pair<std::string, std::string>> wrong{{"missing.scad", "missing.scad"},
+                                                               {"folder.scad", "folder.scad"},
+                                                               {"empty.scad", "solid"},
+                                                               {"syntax.scad", "syntax.scad:2:"},
+                                                               {"junk.scad", "junk.scad"}};
+  const std::size_t before = files();
+  for (const auto& [scene, part] : wrong) {
+    const Outcome outcome = run({"render", scene, "-o", "out.png", "--stats", "s.json", "-q"});
+    EXPECT_EQ(outcome.status, 1) << scene << ": " << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, part)) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "error: ")) << outcome.err;
+    EXPECT_EQ(files(), before) << scene;
+  }
+}
+
+TEST_F(RenderCommand, OldPictureStaysWhenTheSceneIsWrong) {
+  write("out.png", "old");
+  write("bad.scad", "cube(");
+  EXPECT_EQ(run({"render", "bad.scad", "-o", "out.png"}).status, 1);
+  EXPECT_EQ(read("out.png"), "old");
+}
+
+TEST_F(RenderCommand, PlacesThatCannotBeWritten) {
+  const std::size_t before = files();
+  for (const std::string place : {"no/such/folder.png", "/proc/x.png"}) {
+    const Outcome outcome = run({"render", "ball.scad", "-q", "--size", "8x8", "-o", place});
+    EXPECT_EQ(outcome.status, 3) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, place)) << outcome.err;
+  }
+  EXPECT_EQ(run({"render", "ball.scad", "-q", "--size", "8x8", "-o", "x.png", "--stats", "no/such/s.json"}).status, 3);
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(RenderCommand, FullDiskLeavesTheOldPicture) {
+  write("out.png", "old");
+  // The limit on the size of files stands for a full disk; the program inherits it.
+  rlimit old{};
+  getrlimit(RLIMIT_FSIZE, &old);
+  const rlimit limited{512, old.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &limited);
+  const pid_t child = start({"render", "ball.scad", "-q", "--size", "200x200", "-o", "out.png"});
+  setrlimit(RLIMIT_FSIZE, &old);
+  const Outcome outcome = wait_for(child);
+  EXPECT_EQ(outcome.status, 3) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "out.png")) << outcome.err;
+  EXPECT_EQ(read("out.png"), "old");
+  EXPECT_EQ(files(), 2U);
+}
+
+TEST_F(RenderCommand, InterruptEndsWith130AndLeavesNothing) {
+  const pid_t child = start({"render", "ball.scad", "--size", "2000x2000", "--spp", "64", "-o", "out.png"});
+  for (int i = 0; i < 200 && files() < 2; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_EQ(files(), 2U);  // the temporary file is there
+  kill(child, SIGINT);
+  EXPECT_EQ(wait_for(child).status, 130);
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(RenderCommand, LongWorkSaysHowFarItIsUnlessQuiet) {
+  std::vector<std::string> words{"render", "ball.scad", "--size", "2000x2000", "--spp", "64", "-o", "out.png"};
+  for (const bool quiet : {false, true}) {
+    if (quiet) words.push_back("--quiet");
+    const pid_t child = start(words);
+    for (int i = 0; i < (quiet ? 80 : 500) && read(".stream-err").empty(); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    kill(child, SIGTERM);
+    const Outcome outcome = wait_for(child);
+    EXPECT_EQ(outcome.status, 128 + SIGTERM);
+    if (quiet) {
+      EXPECT_EQ(outcome.err, "");
+    } else {
+      EXPECT_TRUE(contains(outcome.err, "tenon: rendering ")) << outcome.err;
+      EXPECT_TRUE(contains(outcome.err, "rays/s")) << outcome.err;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tenon

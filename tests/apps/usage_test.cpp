@@ -1,0 +1,94 @@
+#include "apps/program_test.h"
+
+namespace tenon {
+namespace {
+
+class Usage : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("a.scad", "sphere(1);");
+  }
+};
+
+TEST_F(Usage, HelpAndVersionOfEveryCommand) {
+  const std::vector<std::vector<std::string>> commands{{}, {"render"}, {"trace"}, {"info"}, {"convert"}};
+  for (std::vector<std::string> words : commands) {
+    words.push_back("--help");
+    const Outcome help = run(words);
+    EXPECT_EQ(help.status, 0);
+    EXPECT_TRUE(contains(help.out, "--version")) << help.out;
+    EXPECT_EQ(help.err, "");
+    words.back() = "--version";
+    const Outcome version = run(words);
+    EXPECT_EQ(version.status, 0);
+    EXPECT_EQ(version.out.rfind("tenon ", 0), 0U) << version.out;
+  }
+}
+
+// Each wrong command line, and what its message must name.
+TEST_F(Usage, ErrorsSayWhatIsWrongAndWriteNothing) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
+      {{}, "render, trace, info, convert"},
+      {{"compare", "a.scad"}, "'compare'; there are: render, trace, info, convert"},
+      {{"a.scad"}, "there is no command 'a.scad'"},
+      {{"--frobnicate"}, "--frobnicate"},
+      {{"render"}, "SCENE"},
+      {{"render", "a.scad", "--frobnicate"}, "--frobnicate"},
+      {{"render", "a.scad", "b.scad"}, "b.scad"},
+      {{"render", "a.scad", "-o"}, "--output"},
+      {{"render", "a.scad", "-o", "x.jpg"}, ".png, .exr"},
+      {{"render", "a.scad", "-o", "x"}, ".png, .exr"},
+      {{"render", "a.scad", "--size", "640"}, "--size"},
+      {{"render", "a.scad", "--size", "0x10"}, "--size"},
+      {{"render", "a.scad", "--size", "-3x10"}, "--size"},
+      {{"render", "a.scad", "--size", "10x65536"}, "65535"},
+      {{"render", "a.scad", "--size", "10x10x10"}, "--size"},
+      {{"render", "a.scad", "--size", "99999999999999x2"}, "--size"},
+      {{"render", "a.scad", "--spp", "0"}, "--spp"},
+      {{"render", "a.scad", "--spp", "many"}, "--spp"},
+      {{"render", "a.scad", "--depth", "0"}, "--depth"},
+      {{"render", "a.scad", "--threads", "-1"}, "--threads"},
+      {{"render", "a.scad", "--threads", "1e9"}, "--threads"},
+      {{"render", "a.scad", "--integrator", "path"}, "not built yet"},
+      {{"render", "a.scad", "--integrator", "magic"}, "'magic'; there is: whitted"},
+      {{"render", "a.scad", "--accel", "magic"}, "'magic'; there are: none"},
+      {{"render", "a.scad", "--accel", "none:x=1"}, "none"},
+      {{"render", "a.scad", "--bits", "32"}, "8 or 16"},
+      {{"render", "a.scad", "-o", "x.exr", "--bits", "8"}, "16 or 32"},
+      {{"render", "a.scad", "--camera", "1,2,3"}, "--camera"},
+      {{"render", "a.scad", "--camera", "1,2,3,4,5,6,7,8"}, "--camera"},
+      {{"render", "a.scad", "--camera", "1,2,3,x,5,6"}, "--camera"},
+      {{"render", "a.scad", "--camera", "-1,2,3,-1,2,3"}, "stands where it looks"},
+      {{"render", "a.scad", "--camera", "1,2,3,4,5,6,180"}, "field of view"},
+      {{"render", "a.scad", "-D", "x"}, "name=value"},
+      {{"render", "a.scad", "--facets", "perhaps"}, "--facets"},
+      {{"render", "-"}, "-o"},
+      {{"render", "a.scad", "-o", "-", "--stats", "-"}, "standard output"},
+      {{"trace", "a.scad"}, "--rays"},
+      {{"trace", "-", "--rays", "-"}, "standard input"},
+      {{"convert", "a.scad"}, "--output"},
+      {{"convert", "a.scad", "-o", "a.stl"}, "'.stl' is not supported yet; there is: .csg"},
+      {{"info"}, "SCENE"},
+  };
+  for (const auto& [words, part] : wrong) {
+    const Outcome outcome = run(words, "sphere(1);");
+    std::string line;
+    for (const std::string& word : words) line += ' ' + word;
+    EXPECT_EQ(outcome.status, 2) << line;
+    EXPECT_TRUE(contains(outcome.err, part)) << line << ": " << outcome.err;
+    EXPECT_EQ(outcome.err.rfind("tenon: error: ", 0), 0U) << outcome.err;
+    EXPECT_EQ(outcome.out, "") << line;
+    EXPECT_EQ(files(), 1U) << line;
+  }
+}
+
+TEST_F(Usage, PictureLargerThanTheMachineIsRefused) {
+  if (static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)) > 51e9) GTEST_SKIP();
+  const Outcome outcome = run({"render", "a.scad", "--size", "65535x65535"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_TRUE(contains(outcome.err, "51.5 GB")) << outcome.err;
+}
+
+}  // namespace
+}  // namespace tenon
