@@ -40,7 +40,10 @@ int report_usage(const CLI::App& app, const CLI::ParseError& error) {
   std::string name = "tenon";
   for (const CLI::App* command : app.get_subcommands()) name += ' ' + command->get_name();
   std::string message = error.what();
-  if (!message.empty()) message[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(message[0])));
+  // A sentence's capital goes; a name in capitals stays.
+  if (message.size() > 1 && std::isupper(static_cast<unsigned char>(message[1])) == 0) {
+    message[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(message[0])));
+  }
   return report({ErrorKind::usage, message + "; see '" + name + " --help'", {}});
 }
 
