@@ -60,7 +60,7 @@ int run(int argc, char** argv) {
   CLI::App app("Tenon ray traces constructive solid geometry exactly.", "tenon");
   const std::string version_text = "tenon " + std::string(version());
   app.set_version_flag("--version", version_text);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.footer(exit_statuses);
 
   std::array<CommandBody, commands.size()> bodies;

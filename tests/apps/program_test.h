@@ -50,6 +50,8 @@ class ProgramTest : public testing::Test {
   /// Starts the program; its streams are the files .stream-in, .stream-out and .stream-err.
   pid_t start(const std::vector<std::string>& arguments, const std::string& input = "") const {
     write(".stream-in", input);
+    write(".stream-out", "");
+    write(".stream-err", "");
     const pid_t child = fork();
     if (child != 0) return child;
     if (chdir(folder.c_str()) != 0) _exit(126);
