@@ -18,7 +18,15 @@
     "volume=sphere;volume=ellipsoid,leaf=3;volume=slabs,filter=on;volume=slabs,normals=13,leaf=4;filter=on", \
     "median cut over slabs; volumes: box, sphere, ellipsoid, slabs (Bouatouch's course)") \
   X(goldsmith_bvh, "goldsmith-bvh", "order=given", \
-    "objects inserted one by one where the surface area grows least (Goldsmith & Salmon 1987)")
+    "objects inserted one by one where the surface area grows least (Goldsmith & Salmon 1987)") \
+  X(grid, "grid", "step=classic;resolution=3,mailbox=off", \
+    "uniform 3D grid, classical and Amanatides's steps (Bouatouch's course)") \
+  X(nonuniform_grid, "nonuniform-grid", "levels=3,mailbox=off", \
+    "cells halved at their middle, with lists of objects (Bouatouch's course)") \
+  X(space_tracing, "space-tracing", "levels=3,primitives=2;axes=eye", \
+    "boxes halved at their middle, projected CSG trees, spatial index SI (RR-612, 1987)") \
+  X(space_tracing_subgrids, "space-tracing-subgrids", "levels=1,sublevels=3;levels=0,sublevels=2,axes=eye", \
+    "space tracing with sub-grids where boxes stay full (RR-612, section 6)")
 // clang-format on
 
 namespace tenon {

@@ -3,13 +3,19 @@
 namespace tenon {
 
 std::vector<Box3> node_enclosures(const CsgTree& tree) {
+  std::vector<Box3> leaf_boxes;
+  for (const Leaf& leaf : tree.leaves) leaf_boxes.push_back(leaf.bounds);
+  return node_enclosures(tree, leaf_boxes);
+}
+
+std::vector<Box3> node_enclosures(const CsgTree& tree, const std::vector<Box3>& leaf_boxes) {
   std::vector<Box3> enclosure(tree.nodes.size());
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     const CsgNode& node = tree.nodes[i];
     const auto children = tree.children_of(node);
     switch (node.operation) {
       case CsgOperation::leaf:
-        enclosure[i] = tree[node.leaf].bounds;
+        enclosure[i] = leaf_boxes[node.leaf.get()];
         break;
       case CsgOperation::union_:
         for (const CsgNodeId child : children) enclosure[i] = hull(enclosure[i], enclosure[child.get()]);
