@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -38,6 +39,12 @@ class ScreenRectangles {
     // Beyond the eye's plane by the margin, 2^-32 of the scene, rounding moves a corner by less than 2^-16 of its
     // distance from the centre of the screen: less than a pixel on any screen.
     rectangles_[index] = {to_pixel(left) - 1, to_pixel(right) + 1, to_pixel(top) - 1, to_pixel(bottom) + 1};
+  }
+
+  /// One more, around a box.
+  void add(const Box3& box) {
+    rectangles_.emplace_back();
+    set(rectangles_.size() - 1, box);
   }
 
   bool covers(std::size_t index, int x, int y) const {

@@ -14,6 +14,11 @@ SpaceAxes SpaceAxes::eye(const ScreenView& view) {
   return axes;
 }
 
+ScreenView SpaceAxes::from_world(ScreenView view) const {
+  for (Vec3* v : {&view.eye, &view.right, &view.up, &view.forward}) *v = from_world(*v);
+  return view;
+}
+
 Box3 SpaceAxes::bounds_of(const CsgTree& tree, LeafId id) const {
   const Leaf& leaf = tree[id];
   if (!leaf.bounds.is_bounded()) return Box3::everything();

@@ -19,11 +19,9 @@ class SpaceAxes {
   static SpaceAxes world() { return {}; }
   static SpaceAxes eye(const ScreenView& view);
 
-  bool turned() const { return turned_; }
-
   Vec3 from_world(const Vec3& v) const { return turned_ ? axes_from_world_.direction(v) : v; }
-  Vec3 to_world(const Vec3& v) const { return turned_ ? axes_from_world_.transposed_direction(v) : v; }
   Ray from_world(const Ray& ray) const { return {from_world(ray.origin), from_world(ray.direction)}; }
+  ScreenView from_world(ScreenView view) const;
 
   /// The box of a whole primitive along these axes; Box3::everything() for an unbounded one.
   Box3 bounds_of(const CsgTree& tree, LeafId leaf) const;

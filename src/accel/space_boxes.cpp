@@ -10,7 +10,6 @@ void SpaceBoxes::reserve(const std::vector<MidpointBox>& boxes) {
   leaves_.reserve(leaves_.size() + primitives);
   boxes_.reserve(boxes_.size() + boxes.size());
   if (filters_) spheres_.reserve(boxes_.capacity());
-  if (view_) rectangles_.reserve(boxes_.capacity());
 }
 
 SpaceBoxes::Number SpaceBoxes::add(const MidpointBox& box, Projection& projection) {
@@ -24,20 +23,9 @@ SpaceBoxes::Number SpaceBoxes::add(const MidpointBox& box, Projection& projectio
   if (filters_) {
     const Box3 enclosure = projection.enclose(box.subtree, grown(grid_.box(cells), margin_));
     spheres_.push_back(enclosure.is_empty() ? EnclosingSphere() : EnclosingSphere(enclosure, margin_));
-    if (view_) rectangles_.push_back(rectangle_around(enclosure));
+    if (rectangles_) rectangles_->add(enclosure);
   }
   return static_cast<Number>(boxes_.size() - 1);
-}
-
-EnclosingRectangle SpaceBoxes::rectangle_around(const Box3& box) const {
-  if (box.is_empty()) return {0, 0, -1, -1};
-  RectangleOnScreen screen(*view_);
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner{(i & 1) != 0 ? box.upper.x : box.lower.x, (i & 2) != 0 ? box.upper.y : box.lower.y,
-                      (i & 4) != 0 ? box.upper.z : box.lower.z};
-    screen.add(axes_.to_world(corner));
-  }
-  return screen.rectangle();
 }
 
 }  // namespace tenon

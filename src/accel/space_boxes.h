@@ -3,9 +3,10 @@
 #include <optional>
 #include <vector>
 
-#include "accel/enclosing_volumes.h"
+#include "accel/enclosing_sphere.h"
 #include "accel/grid_ray.h"
 #include "accel/midpoint_subdivision.h"
+#include "accel/screen_rectangles.h"
 #include "accel/space_axes.h"
 #include "accel/walk.h"
 
@@ -28,7 +29,7 @@ class SpaceBoxes {
   /// Gives each box a sphere around what is in it and, for the view, a rectangle. Before the first add().
   void use_filters(const ScreenView* view) {
     filters_ = true;
-    if (view != nullptr) view_ = *view;
+    if (view != nullptr) rectangles_.emplace(axes_.from_world(*view), 0, margin_);
   }
 
   /// Makes room for these boxes.
@@ -40,7 +41,7 @@ class SpaceBoxes {
   int depth() const { return depth_; }
   std::size_t memory_bytes() const {
     return boxes_.capacity() * sizeof(Box) + leaves_.capacity() * sizeof(LeafId) +
-           spheres_.capacity() * sizeof(EnclosingSphere) + rectangles_.capacity() * sizeof(EnclosingRectangle);
+           spheres_.capacity() * sizeof(EnclosingSphere) + (rectangles_ ? rectangles_->bytes() : 0);
   }
 
   /// Follows a ray from box to box, until it is done or leaves the space.
@@ -75,24 +76,21 @@ class SpaceBoxes {
   // (Projection::enclose): nothing has to be revealed.
   bool is_missed(Number number, const Ray& ray, const RayQuery& query) const {
     if (!filters_) return false;
-    if (query.kind == RayKind::primary && !rectangles_.empty()) {
-      return !rectangles_[number].holds(query.pixel_x, query.pixel_y);
+    if (query.kind == RayKind::primary && rectangles_) {
+      return !rectangles_->covers(number, query.pixel_x, query.pixel_y);
     }
     return spheres_[number].missed_by(ray);
   }
-
-  EnclosingRectangle rectangle_around(const Box3& box) const;
 
   GridGeometry grid_;
   Levels levels_{};
   SpaceAxes axes_;
   double margin_ = 0;
   bool filters_ = false;
-  std::optional<ScreenView> view_;
   std::vector<Box> boxes_;
   std::vector<LeafId> leaves_;
   std::vector<EnclosingSphere> spheres_;        // by box, with filters
-  std::vector<EnclosingRectangle> rectangles_;  // by box, with filters and a view
+  std::optional<ScreenRectangles> rectangles_;  // by box, with filters and a view
   int depth_ = 0;
 };
 
