@@ -18,13 +18,13 @@ module shell(outer, thickness, opening) {
   }
 }
 
-tints = [[0.93, 0.87, 0.76], [0.80, 0.30, 0.22], [0.93, 0.72, 0.30], [0.16, 0.45, 0.50]];
-radii = [2.0, 1.62, 1.26, 0.92];
+tints = [[0.93, 0.87, 0.76], [0.80, 0.30, 0.22], [0.93, 0.72, 0.30], [0.24, 0.62, 0.64]];
+radii = [2.0, 1.64, 1.30, 0.98];
 
 for (i = [0 : len(radii) - 1])
   material("carved", model = "phong", kd = 0.78, ks = 0.22, shininess = 60, color = tints[i])
-    rotate([17 * i, 23 * i, 31 * i]) shell(radii[i], 0.2, 0.40);
-material("pearl", model = "whitted", kd = 0.35, ks = 0.65, shininess = 200, color = [0.95, 0.93, 0.90]) sphere(0.5);
+    rotate([7 * i, -9 * i, 11 * i]) shell(radii[i], 0.17, 0.46);
+material("pearl", model = "phong", kd = 0.8, ks = 0.2, shininess = 150, color = [0.97, 0.94, 0.90]) sphere(0.55);
 
 // A stand of rings.
 material("brass", model = "whitted", kd = 0.72, ks = 0.28, shininess = 120, color = [0.80, 0.58, 0.22]) {
@@ -34,9 +34,9 @@ material("brass", model = "whitted", kd = 0.72, ks = 0.28, shininess = 120, colo
 material("floor", model = "whitted", kd = 0.88, ks = 0.12, shininess = 80, color = [0.36, 0.38, 0.42])
   translate([-40, -40, -2.78]) cube([80, 80, 0.5]);
 
-light(type = "point", position = [7, -9, 12], intensity = 0.8, color = [1, 0.96, 0.9]);
-light(type = "point", position = [-11, -6, 6], intensity = 0.35, color = [0.86, 0.92, 1]);
-light(type = "point", position = [0, 0, 0.7], intensity = 0.25, color = [1, 0.85, 0.6]);
-ambient(0.36);
+light(type = "point", position = [7, -9, 12], intensity = 1.0, color = [1, 0.96, 0.9]);
+light(type = "point", position = [-11, -6, 6], intensity = 0.45, color = [0.86, 0.92, 1]);
+light(type = "point", position = [0, 0, 0.7], intensity = 0.35, color = [1, 0.85, 0.6]);
+ambient(0.46);
 background([0.80, 0.85, 0.90]);
-camera(from = [4.4, -7.0, 3.0], at = [0, 0, -0.25], fov = 40);
+camera(from = [4.6, -7.6, 2.4], at = [0, 0, -0.35], fov = 40);

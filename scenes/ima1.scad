@@ -16,7 +16,7 @@ module wheel(radius) {
 }
 
 // Ground and frame: 2.
-paint([0.55, 0.63, 0.50], 0) translate([-30, -30, -0.5]) cube([60, 60, 0.5]);
+paint([0.66, 0.74, 0.60], 0) translate([-30, -30, -0.5]) cube([60, 60, 0.5]);
 paint([0.20, 0.22, 0.26]) translate([-2.3, -0.55, 0.6]) cube([4.5, 1.1, 0.22]);
 
 // Boiler, dome and chimney, which is hollow: 5.
@@ -54,12 +54,14 @@ paint([0.20, 0.22, 0.26]) intersection() {
   translate([2.2, 0, 0.05]) cylinder(h = 0.75, r1 = 0.8, r2 = 0.2);
   translate([2.2, -1, 0.06]) cube([1, 2, 0.5]);
 }
-// The whistle is the last of the 32.
+// A whistle, a safety valve and a bell make it 32.
 paint([0.85, 0.65, 0.22], 0.4) translate([-0.3, 0, 1.9]) cylinder(h = 0.35, r1 = 0.08, r2 = 0.05);
+paint([0.85, 0.65, 0.22], 0.4) translate([0.8, 0, 1.93]) sphere(0.13);
+paint([0.85, 0.65, 0.22], 0.4) translate([-0.05, 0, 1.92]) cylinder(h = 0.25, r1 = 0.14, r2 = 0.04);
 
-light(type = "point", position = [6, -9, 11], intensity = 0.62, color = [1, 0.96, 0.9]);
-light(type = "point", position = [-9, -7, 7], intensity = 0.3, color = [0.88, 0.94, 1]);
-light(type = "point", position = [3, 9, 9], intensity = 0.25);
-ambient(0.42);
+light(type = "point", position = [6, -9, 11], intensity = 0.95, color = [1, 0.96, 0.9]);
+light(type = "point", position = [-9, -7, 7], intensity = 0.45, color = [0.88, 0.94, 1]);
+light(type = "point", position = [3, 9, 9], intensity = 0.3);
+ambient(0.52);
 background([0.80, 0.88, 0.94]);
 camera(from = [5.6, -7.2, 4.2], at = [-0.1, 0, 1.1], fov = 38);

@@ -1,32 +1,34 @@
 // Made to IMA2 of Bouatouch et al. 1987 (RR-612, table 1): 72 spheres and cylinders, one light, ray tree of depth 1.
-// Beads, each drilled through, on the line of a trefoil knot. `-D primitives=36` (24, 12, 8) gives the scenes of its
-// table 4.
+// A double helix: 24 rungs of two spheres and a cylinder. `-D primitives=36` (24, 12, 8) leaves out the rest, as for the
+// paper's table 4.
 include <tenon.scad>
 
 primitives = 72;
-beads = primitives / 2;
+rungs = 24;
+turn = 30;
+rise = 0.34;
+radius = 1.15;
 
-function trefoil(a) = [sin(a) + 2 * sin(2 * a), cos(a) - 2 * cos(2 * a), -1.2 * sin(3 * a)];
-function unit(v) = v / norm(v);
-
-module along(direction) {
-  polar = acos(direction.z);
-  azimuth = atan2(direction.y, direction.x);
-  rotate([0, polar, azimuth]) children();
+module ball(tint) {
+  material("ball", model = "phong", kd = 0.72, ks = 0.28, shininess = 70, color = tint)
+    translate([radius, 0, 0]) sphere(0.36);
+}
+module rung() {
+  material("rung", model = "phong", kd = 0.8, ks = 0.2, shininess = 40, color = [0.88, 0.86, 0.80])
+    rotate([0, 90, 0]) cylinder(h = 2 * radius, r = 0.11, center = true);
 }
 
-for (i = [0 : beads - 1]) {
-  a = 360 * i / beads;
-  hue = 0.5 + 0.5 * sin(a);
-  material("bead", model = "phong", kd = 0.75, ks = 0.25, shininess = 50,
-           color = [0.90 - 0.65 * hue, 0.45 + 0.15 * hue, 0.25 + 0.50 * hue])
-    translate(trefoil(a)) along(unit(trefoil(a + 1) - trefoil(a - 1))) difference() {
-      sphere(0.38);
-      cylinder(h = 1, r = 0.17, center = true);
-    }
+rotate([0, 66, -14]) for (k = [0 : primitives - 1]) {
+  step = floor(k / 3);
+  part = k % 3;
+  translate([0, 0, (step - (rungs - 1) / 2) * rise]) rotate([0, 0, turn * step]) {
+    if (part == 0) ball([0.86, 0.30, 0.22]);
+    if (part == 1) rotate([0, 0, 180]) ball([0.16, 0.46, 0.66]);
+    if (part == 2) rung();
+  }
 }
 
-light(type = "point", position = [5, -8, 12], intensity = 0.85);
-ambient(0.5);
-background([0.93, 0.93, 0.90]);
-camera(from = [2.5, -7.5, 8], at = [0, 0, 0], fov = 44);
+light(type = "point", position = [5, -9, 12], intensity = 1.1);
+ambient(0.58);
+background([0.94, 0.94, 0.92]);
+camera(from = [0.4, -10.5, 4.2], at = [0.1, 0, 0.1], fov = 46);

@@ -36,8 +36,8 @@ material("pencil", model = "phong", kd = 0.85, ks = 0.15, color = [0.95, 0.75, 0
 material("pencil", model = "phong", kd = 0.85, ks = 0.15, color = [0.15, 0.45, 0.70])
   translate([-0.5, -2.2, 0.08]) rotate([0, 90, -20]) cylinder(h = 2.0, r = 0.08);
 
-light(type = "point", position = [5, -6, 8], intensity = 0.75, color = [1, 0.95, 0.88]);
-light(type = "point", position = [-6, -4, 6], intensity = 0.4, color = [0.88, 0.94, 1]);
-ambient(0.4);
+light(type = "point", position = [5, -6, 8], intensity = 0.95, color = [1, 0.95, 0.88]);
+light(type = "point", position = [-6, -4, 6], intensity = 0.5, color = [0.88, 0.94, 1]);
+ambient(0.5);
 background([0.62, 0.72, 0.82]);
-camera(from = [0.4, -6.8, 3.0], at = [0.1, 0, 0.75], fov = 42);
+camera(from = [0.5, -8.0, 3.9], at = [0.1, -0.1, 0.7], fov = 40);
