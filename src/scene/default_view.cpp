@@ -1,34 +1,62 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "tenon/math/affine3.h"
 #include "tenon/scene/scene.h"
 
 namespace tenon {
 
+namespace {
+
+struct Frame {
+  Vec3 back, right, up;
+};
+
+// The axes of a camera that looks along -back.
+Frame view_frame(const Vec3& towards_camera, const Vec3& up_hint) {
+  Frame frame;
+  frame.back = normalize(towards_camera);
+  frame.right = normalize(cross(up_hint, frame.back));
+  if (frame.right == Vec3{}) frame.right = {1, 0, 0};
+  frame.up = cross(frame.back, frame.right);
+  return frame;
+}
+
+}  // namespace
+
 Camera default_camera(const Box3& bounds) {
   Camera camera;
   const Vec3 size = bounds.size();
-  // The ball around the bounds, seen under the vertical field of view of a 4:3 picture with a little air around it.
-  const double radius = std::max(0.5 * length(size), std::numeric_limits<double>::min());
-  const double half_fov = 0.5 * camera.fov * (std::numbers::pi / 180);
-  const double distance = radius / std::sin(std::atan(0.75 * std::tan(half_fov)));
+  constexpr double smallest = std::numeric_limits<double>::min();
   // Flat things are looked at from higher up, towers from lower down.
-  const double flatness = size.z / std::max(std::max(size.x, size.y), std::numeric_limits<double>::min());
-  const double elevation = (flatness < 0.2 ? 45.0 : flatness > 2 ? 20.0 : 30.0) * (std::numbers::pi / 180);
-  const double azimuth = -60 * (std::numbers::pi / 180);
-  const Vec3 towards{std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                     std::sin(elevation)};
+  const double flatness = size.z / std::max(std::max(size.x, size.y), smallest);
+  const double elevation = flatness < 0.2 ? 45.0 : flatness > 2 ? 20.0 : 30.0;
+  const Frame frame = view_frame(
+      {cos_degrees(elevation) * cos_degrees(-60), cos_degrees(elevation) * sin_degrees(-60), sin_degrees(elevation)},
+      camera.up);
   camera.at = bounds.center();
-  camera.from = camera.at + towards * distance;
+
+  // As near as every corner of the bounds stays in a 4:3 picture, with a little air around.
+  constexpr double air = 0.88;
+  const double tan_x = air * std::tan(0.5 * camera.fov * (std::numbers::pi / 180)), tan_y = 0.75 * tan_x;
+  double distance = smallest;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 corner{(i & 1) != 0 ? bounds.upper.x : bounds.lower.x, (i & 2) != 0 ? bounds.upper.y : bounds.lower.y,
+                      (i & 4) != 0 ? bounds.upper.z : bounds.lower.z};
+    const Vec3 v = corner - camera.at;
+    const double nearer = dot(v, frame.back);
+    distance = std::max(
+        {distance, nearer + std::fabs(dot(v, frame.right)) / tan_x, nearer + std::fabs(dot(v, frame.up)) / tan_y});
+  }
+  camera.from = camera.at + frame.back * distance;
   return camera;
 }
 
 std::vector<Light> default_lights(const Box3& bounds, const Camera& camera) {
-  // A frame that stands where the camera does, so that every side of the solid is lit well when it is the one shown.
-  const Vec3 back = normalize(camera.from - camera.at);
-  Vec3 right = normalize(cross(camera.up, back));
-  if (right == Vec3{}) right = {1, 0, 0};
-  const Vec3 up = cross(back, right);
+  // Lights that stand where the camera does, so that whatever side is shown is lit well.
+  const auto [back, right, up] = view_frame(camera.from - camera.at, camera.up);
   const double reach = 2 * length(bounds.size()) + length(camera.from - camera.at);
 
   Light key;
