@@ -25,7 +25,8 @@ Hit make_hit(const CsgTree& tree, const Ray& ray, const Run& run) {
   // From one medium into another both sides are solid; the leaf's own sense then says which way is out.
   const bool between_media = run.before != medium_outside && run.after != medium_outside;
   const bool cut = !between_media && run.leaf_entering != hit.entering;
-  if (cut) hit.normal = -hit.normal;
+  // Subtracted from and added to zero, so that no component is -0, which JSON would print.
+  hit.normal = cut ? Vec3{} - hit.normal : Vec3{} + hit.normal;
   if (!hit.material && run.owner) hit.material = tree[run.owner].material;
   return hit;
 }
