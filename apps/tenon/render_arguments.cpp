@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <vector>
 
 #include "commands.h"
@@ -77,6 +78,14 @@ Status read_camera(const std::string& text, RenderPlan& plan) {
   return success();
 }
 
+// A device or a pipe has no suffix to go by; it gets what standard output gets.
+bool is_device(const std::string& path) {
+  std::error_code none;
+  const std::filesystem::file_status status = std::filesystem::status(path, none);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+         !std::filesystem::is_directory(status);
+}
+
 Status read_output(const RenderArguments& arguments, const std::string& scene_stem, RenderPlan& plan) {
   plan.output = arguments.output;
   if (plan.output.empty()) {
@@ -85,7 +94,8 @@ Status read_output(const RenderArguments& arguments, const std::string& scene_st
     plan.output = scene_stem + ".png";
   }
   if (plan.output != "-") {
-    const auto format = picture_format(plan.output);
+    auto format = picture_format(plan.output);
+    if (!format && is_device(plan.output)) format = PictureFormat::png;
     if (!format) {
       return usage_error("the suffix of '" + plan.output + "' names no picture format; there are: " +
                          std::string(picture_suffixes()) + " (and -o - for a PNG on standard output)");

@@ -168,6 +168,13 @@ TEST_F(RenderCommand, PlacesThatCannotBeWritten) {
   EXPECT_EQ(files(), before);
 }
 
+TEST_F(RenderCommand, FullDeviceIsAMachineError) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP();
+  const Outcome outcome = run({"render", "ball.scad", "-q", "--size", "8x8", "-o", "/dev/full"});
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_TRUE(contains(outcome.err, "'/dev/full'")) << outcome.err;
+}
+
 TEST_F(RenderCommand, FullDiskLeavesTheOldPicture) {
   write("out.png", "old");
   // The limit on the size of files stands for a full disk; the program inherits it.
