@@ -81,7 +81,7 @@ class StructureAccelerator final : public Accelerator {
     typename S::Scratch scratch;
   };
 
-  // Follows a ray until the sink has what it wants; returns the medium where it stopped.
+  // Follows a ray until the sink has what it wants; returns the medium at the end, if the sink never stopped it.
   MediumId follow(const RayQuery& query, TraceContext& base, Walk::Sink sink) const {
     auto& context = static_cast<Context&>(base);
     TraversalCounters& counters = context.statistics[query.kind];
@@ -94,7 +94,7 @@ class StructureAccelerator final : public Accelerator {
     structure_.traverse(walk, context.scratch);
     walk.finish();
     context.statistics.seam_faults += context.classifier.seam_faults() - faults;
-    return context.classifier.value();
+    return walk.final_value();
   }
 
   const CsgTree& tree_;

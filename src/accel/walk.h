@@ -43,10 +43,17 @@ class Walk {
     // The start belongs to no stretch of the ray: a leaf whose box holds the origin may still come.
     if (!(t > 0)) return false;
     while (const std::optional<Run> run = classifier_.settle(t)) {
-      if (!(run->t < query_.t_max) || sink_(*run)) return done_ = true;
+      if (!(run->t < query_.t_max)) {
+        beyond_ = run->before;
+        return done_ = true;
+      }
+      if (sink_(*run)) return done_ = true;
     }
     return done_ = t >= query_.t_max && !classifier_.run_pending();
   }
+
+  /// The medium at the end of the ray, t_max, once the ray is done without the sink having stopped it.
+  MediumId final_value() const { return beyond_ ? *beyond_ : classifier_.value(); }
 
   /// No leaf ahead has been left out: settles the rest of the ray.
   void finish() { settle(std::numeric_limits<double>::infinity()); }
@@ -57,6 +64,7 @@ class Walk {
   TraversalCounters& counters_;
   Sink sink_;
   bool mailbox_ = true;
+  std::optional<MediumId> beyond_;  // before the first boundary behind t_max, when one was met
   bool done_ = false;
 };
 

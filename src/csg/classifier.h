@@ -40,7 +40,7 @@ struct Run {
   LeafId owner;                ///< the leaf whose material fills the solid's side; none when nothing owns it
   MediumId before = medium_outside;
   MediumId after = medium_outside;
-  InlineVector<LeafFace, 4> faces;  ///< every face that coincides here
+  InlineVector<LeafFace, 4> faces;  ///< every face that coincides here, and matters before the run or after it
 };
 
 /// Follows one ray through a Boolean expression. The rules for ties, runs, starts on a surface, surfaces and media
@@ -71,7 +71,7 @@ template <ExpressionEvaluation State, LeafSource Source>
 class Classifier {
  public:
   Classifier(State state, Source source, std::size_t leaf_count)
-      : state_(std::move(state)), source_(std::move(source)), revealed_(leaf_count) {}
+      : state_(std::move(state)), source_(std::move(source)), revealed_(leaf_count), inside_place_(leaf_count) {}
 
   Source& source() { return source_; }
 
@@ -136,8 +136,7 @@ class Classifier {
     started_ = true;
     for (;;) {
       if (queue_.empty() || !(queue_.front().t < limit)) {
-        const bool whole = run_high_ < limit || limit == std::numeric_limits<double>::infinity();
-        if (run_active_ && whole) {
+        if (run_active_ && run_ends_before(limit)) {
           if (std::optional<Run> run = close_run()) return run;
         }
         front_ = std::max(front_, limit);
@@ -153,17 +152,11 @@ class Classifier {
       absorbing_ = false;
       if (run_active_ && e.t - e.bound <= run_high_) {
         run_shows_surface_ |= e.surface;
+        end_run_here();
         continue;
       }
       std::optional<Run> run;
-      if (run_active_) {
-        // The crossing lies behind the run: judge the run in the state before the crossing.
-        trail_.pop_back();
-        if (!e.surface) flip(e.leaf);
-        run = close_run();
-        if (!e.surface) flip(e.leaf);
-        trail_.push_back(e);
-      }
+      if (run_active_) run = close_run();
       begin_run(e, before);
       if (run) return run;
     }
@@ -205,9 +198,12 @@ class Classifier {
 
   void flip(LeafId leaf) {
     if (state_.inside(leaf)) {
-      *std::find(inside_.begin(), inside_.end(), leaf) = inside_.back();
+      const std::uint32_t place = inside_place_[leaf.get()];
+      inside_[place] = inside_.back();
+      inside_place_[inside_[place].get()] = place;
       inside_.pop_back();
     } else {
+      inside_place_[leaf.get()] = static_cast<std::uint32_t>(inside_.size());
       inside_.push_back(leaf);
     }
     state_.flip(leaf);
@@ -254,16 +250,32 @@ class Classifier {
     const double low = first.t - first.bound;
     std::erase_if(trail_, [low](const Event& e) { return e.t + e.bound < low; });
     run_begin_ = trail_.size() - 1;  // `first` was the last to be processed
+    end_run_here();
+  }
+
+  // The crossing just processed changed the root, and is the run's last so far.
+  void end_run_here() {
+    run_after_ = value_;
+    run_end_ = trail_.size();
+  }
+
+  // No crossing at the limit or behind it can belong to the run: not one of a leaf still to be revealed, for its whole
+  // interval lies behind the limit, and not one in the queue.
+  bool run_ends_before(double limit) const {
+    if (limit == std::numeric_limits<double>::infinity()) return true;
+    if (!(run_high_ < limit)) return false;
+    return std::none_of(queue_.begin(), queue_.end(), [this](const Event& e) { return meets_run(e); });
   }
 
   bool meets_run(const Event& e) const {
     return e.t - e.bound <= run_high_ && e.t + e.bound >= run_first_.t - run_first_.bound;
   }
 
-  // The run is complete; what it amounts to, or nothing.
+  // The run is complete; what it amounts to, or nothing. It is judged in the states right before and right after it:
+  // what else the ray has crossed by now depends on the structure.
   std::optional<Run> close_run() {
     run_active_ = false;
-    if (run_before_ == value_ && !run_shows_surface_) return std::nullopt;
+    if (run_before_ == run_after_ && !run_shows_surface_) return std::nullopt;
 
     candidates_.clear();
     for (const Event& e : trail_) {
@@ -272,40 +284,37 @@ class Classifier {
     for (const Event& e : queue_) {
       if (meets_run(e)) candidates_.push_back(e);
     }
-    const Event shown = candidates_.size() == 1 ? candidates_.front() : choose_shown();
+    const bool coincide = candidates_.size() > 1;
+    if (coincide) {
+      std::sort(candidates_.begin(), candidates_.end(),
+                [](const Event& a, const Event& b) { return a.leaf != b.leaf ? a.leaf < b.leaf : later(b, a); });
+    }
+    alone_.assign(candidates_.size(), !coincide);
+
+    const std::size_t now = trail_.size();
+    rewind(now, run_end_);
+    if (coincide) mark_candidates_that_change_root();
+    LeafId owner;
+    if (run_after_ != medium_outside) owner = find_owner();
+    if (coincide || run_after_ == medium_outside) {
+      rewind(run_end_, run_begin_);
+      if (coincide) mark_candidates_that_change_root();
+      if (run_after_ == medium_outside) owner = find_owner();
+      replay(run_begin_, run_end_);
+    }
+    replay(run_end_, now);
 
     Run run;
+    const Event shown = take_faces(run);
     run.t = run_first_.t;
     run.bound = run_first_.bound;
     run.surface = {shown.leaf, shown.face};
     run.leaf_entering = shown.entering;
     run.is_surface = shown.surface;
+    run.owner = owner;
     run.before = run_before_;
-    run.after = value_;
-    for (const Event& e : candidates_) run.faces.push_back({e.leaf, e.face});
-    if (value_ != medium_outside) {
-      run.owner = find_owner();
-    } else {
-      rewind();
-      run.owner = find_owner();
-      replay();
-    }
+    run.after = run_after_;
     return run;
-  }
-
-  // The first in tree order among the candidates whose bit alone changes the root before or after the run.
-  Event choose_shown() {
-    std::sort(candidates_.begin(), candidates_.end(),
-              [](const Event& a, const Event& b) { return a.leaf != b.leaf ? a.leaf < b.leaf : later(b, a); });
-    alone_.assign(candidates_.size(), false);
-    mark_candidates_that_change_root();
-    rewind();
-    mark_candidates_that_change_root();
-    replay();
-    for (std::size_t i = 0; i < candidates_.size(); ++i) {
-      if (alone_[i]) return candidates_[i];
-    }
-    return run_first_;
   }
 
   void mark_candidates_that_change_root() {
@@ -314,14 +323,35 @@ class Classifier {
     }
   }
 
-  // Takes the state back to before the run, and forth again.
-  void rewind() {
-    for (std::size_t i = trail_.size(); i-- > run_begin_;) {
+  // The faces of the run are those that matter beside it, one for each leaf. Others may lie there too, such as what is
+  // subtracted outside of what it is subtracted from; some structures never see them, and nobody may depend on them.
+  // Of a leaf that the ray only grazes a structure may have missed the crossings before its enclosure, never the last.
+  // @return the one that shows: the first in tree order
+  Event take_faces(Run& run) const {
+    const Event* shown = nullptr;
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      const Event* face = &candidates_[i];
+      for (; i + 1 < candidates_.size() && candidates_[i + 1].leaf == face->leaf; ++i) {
+        if (face->ordinal != run_first_.ordinal || face->leaf != run_first_.leaf) face = &candidates_[i + 1];
+      }
+      if (!alone_[i]) continue;
+      if (shown == nullptr) shown = face;
+      run.faces.push_back({face->leaf, face->face});
+    }
+    if (shown != nullptr) return *shown;
+    // Nothing changes the root alone where two faces must come together.
+    run.faces.push_back({run_first_.leaf, run_first_.face});
+    return run_first_;
+  }
+
+  // Takes the state back along the trail, and forth again.
+  void rewind(std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i-- > to;) {
       if (!trail_[i].surface) flip(trail_[i].leaf);
     }
   }
-  void replay() {
-    for (std::size_t i = run_begin_; i < trail_.size(); ++i) {
+  void replay(std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
       if (!trail_[i].surface) flip(trail_[i].leaf);
     }
   }
@@ -331,9 +361,10 @@ class Classifier {
   std::vector<std::uint32_t> revealed_;  // the stamp of the ray that revealed the leaf
   std::uint32_t stamp_ = 0;
 
-  std::vector<Event> queue_;    // crossings ahead, a heap
-  std::vector<Event> trail_;    // crossings processed that may still meet a run
-  std::vector<LeafId> inside_;  // the leaves that hold the point at the front
+  std::vector<Event> queue_;                 // crossings ahead, a heap
+  std::vector<Event> trail_;                 // crossings processed that may still meet a run
+  std::vector<LeafId> inside_;               // the leaves that hold the point at the front
+  std::vector<std::uint32_t> inside_place_;  // where in inside_ a leaf stands that is there
   double front_ = 0;
   MediumId value_ = medium_outside;
   bool started_ = false;    // settle() was called for this ray
@@ -343,8 +374,10 @@ class Classifier {
   bool run_shows_surface_ = false;
   Event run_first_{};
   MediumId run_before_ = medium_outside;
+  MediumId run_after_ = medium_outside;
   double run_high_ = 0;
   std::size_t run_begin_ = 0;  // into trail_: the run's first crossing
+  std::size_t run_end_ = 0;    // and the place behind its last that changed the root
 
   std::uint64_t seam_faults_ = 0;
   Spans spans_;

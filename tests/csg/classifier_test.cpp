@@ -274,5 +274,87 @@ TEST(Classifier, AgreesWithPointMembershipOnRandomTrees) {
   }
 }
 
+// Leaf 1 is subtracted from a leaf that the ray meets later: where it coincides with a face that shows, it is nobody's
+// business, however far the ray has gone when the run is judged.
+TEST(Classifier, ARunIsJudgedInTheStateRightBehindIt) {
+  TreeBuilder b;
+  const CsgNodeId far = b.leaf(), tool = b.leaf(), near = b.leaf();
+  const CsgTree tree = b.finish(b.complement(b.unite({b.subtract({far, tool}), near})));
+  // Before the root changes again at 8, `far` has begun at 3, where `near` hides it.
+  const auto runs = runs_of(tree, {{span(3, 8), span(1, 2), span(1, 4)}, {}, {}});
+  ASSERT_EQ(times_of(runs), (Times{1, 8}));
+  EXPECT_EQ(runs[0].surface.leaf, LeafId{2});
+  ASSERT_EQ(runs[0].faces.size(), 1u) << "the face of the tool does not matter here";
+  EXPECT_EQ(runs[0].faces[0].leaf, LeafId{2});
+}
+
+// A run that ends before the limit, but whose interval meets that of a crossing behind it, has to wait.
+TEST(Classifier, ARunWaitsForACrossingBehindTheLimitThatMeetsIt) {
+  TreeBuilder b;
+  const CsgNodeId x = b.leaf(), y = b.leaf();
+  const CsgTree tree = b.finish(b.unite({x, y}));
+  const Source source{{span(1, 2), span(2.5, 4, 0.6, 0)}, {}, {}};
+  const Expression expression = Expression::compile(tree);
+  Classifier<ExpressionState, Source> classifier(ExpressionState(expression), source, tree.leaves.size());
+  classifier.start();
+  classifier.reveal(LeafId{0});
+  classifier.reveal(LeafId{1});
+  const auto first = classifier.settle(2.2);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->t, 1);
+  EXPECT_FALSE(classifier.settle(2.2)) << "the gap from 2 to 2.5 may be none";
+  const auto second = classifier.settle(inf);
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->t, 4);
+}
+
+// The runs when leaves are revealed as late as a structure may, and the ray settled step by step.
+std::vector<Run> runs_step_by_step(const CsgTree& tree, const Source& source, std::mt19937_64& rng) {
+  const Expression expression = Expression::compile(tree);
+  Classifier<ExpressionState, Source> classifier(ExpressionState(expression), source, tree.leaves.size());
+  classifier.start();
+  std::vector<Run> runs;
+  const auto real = [&](double most) { return most * static_cast<double>(rng() >> 11) * 0x1p-53; };
+  for (double limit = 0; limit < 11;) {
+    limit += real(1.0);
+    for (std::size_t i = 0; i < tree.leaves.size(); ++i) {
+      const Spans& crossings = source.by_leaf[i];
+      const auto begins = [limit](const Crossing& c) { return c.t - c.bound < limit; };
+      if (std::any_of(crossings.begin(), crossings.end(), begins)) classifier.reveal(LeafId{i});
+    }
+    while (auto run = classifier.settle(limit)) runs.push_back(*run);
+  }
+  while (auto run = classifier.settle(inf)) runs.push_back(*run);
+  EXPECT_EQ(classifier.seam_faults(), 0u);
+  return runs;
+}
+
+TEST(Classifier, StepsAlongTheRayChangeNothing) {
+  for (unsigned seed = 0; seed < 3000; ++seed) {
+    std::mt19937_64 rng(seed);
+    const int count = 2 + static_cast<int>(rng() % 9);
+    TreeBuilder b;
+    const CsgTree tree = b.finish(random_subtree(b, rng, count));
+    Source source;
+    // Times on a grid, so that many coincide, and bounds that reach to neighbours on it.
+    const auto grid = [&](unsigned n, double step) { return step * static_cast<double>(rng() % n); };
+    for (int i = 0; i < count; ++i) {
+      const double t = grid(18, 0.5), length = 0.5 + grid(6, 0.5);
+      source.by_leaf.push_back(span(t, t + length, grid(4, 0.2), grid(4, 0.2)));
+    }
+    if (seed % 2 == 1) {
+      for (int i = 0; i < count; ++i) source.media.push_back(1 + static_cast<MediumId>(rng() % 3));
+    }
+    const auto whole = runs_of(tree, source), steps = runs_step_by_step(tree, source, rng);
+    ASSERT_EQ(times_of(whole), times_of(steps)) << "seed " << seed;
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      EXPECT_EQ(whole[i].surface, steps[i].surface) << "seed " << seed;
+      EXPECT_EQ(whole[i].owner, steps[i].owner) << "seed " << seed;
+      EXPECT_EQ(whole[i].after, steps[i].after) << "seed " << seed;
+      EXPECT_EQ(whole[i].faces.size(), steps[i].faces.size()) << "seed " << seed;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tenon
