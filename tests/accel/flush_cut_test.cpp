@@ -8,8 +8,8 @@
 namespace tenon {
 namespace {
 
-using support::SceneBuilder;
-using support::Tracer;
+using fixtures::SceneBuilder;
+using fixtures::Tracer;
 
 // The oracle is judged on 512 x 512 pixels as POV-Ray was; the structures, which must equal it anyway, on fewer.
 constexpr int oracle_pixels = 512, structure_pixels = 144;

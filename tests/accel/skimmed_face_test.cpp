@@ -3,8 +3,8 @@
 namespace tenon {
 namespace {
 
-using support::SceneBuilder;
-using support::Tracer;
+using fixtures::SceneBuilder;
+using fixtures::Tracer;
 
 // A ray that sinks into the top of a slab so slowly that where it does is not known to within the slab's length. What
 // stands behind the slab is met where it is, and the gap before it stays open.

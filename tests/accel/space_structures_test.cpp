@@ -12,8 +12,8 @@
 namespace tenon {
 namespace {
 
-using support::SceneBuilder;
-using support::Tracer;
+using fixtures::SceneBuilder;
+using fixtures::Tracer;
 
 const char* const structures[] = {"grid", "nonuniform-grid", "space-tracing", "space-tracing-subgrids"};
 

@@ -8,7 +8,7 @@
 namespace tenon {
 namespace {
 
-using support::SceneBuilder;
+using fixtures::SceneBuilder;
 
 void expect_near(const Box3& box, const Vec3& lower, const Vec3& upper) {
   const double rounding = 1e-14 * (1 + box.largest_coordinate());  // a few units in the last place of the corners

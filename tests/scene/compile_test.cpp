@@ -7,7 +7,7 @@
 namespace tenon {
 namespace {
 
-using support::SceneBuilder;
+using fixtures::SceneBuilder;
 
 Material named(const char* name, double kt = 0) {
   Material m;
@@ -97,7 +97,7 @@ TEST(CompileScene, ACutFaceShowsTheToolsMaterialOnlyIfItHasOne) {
     const SceneNodeId tool = b.box({0.5, 0.5, 1}, {1.5, 1.5, 3});
     const SceneNodeId cut = b.subtract({base, tool_has_material ? b.material(1, tool) : tool});
     const Scene scene = compile(b, cut, {named("base"), named("tool")});
-    support::Tracer tracer(*scene.tree);
+    fixtures::Tracer tracer(*scene.tree);
     const Hit hit = tracer.first_hit({{1, 1, 5}, {0, 0, -1}});
     EXPECT_DOUBLE_EQ(hit.t, 4);
     EXPECT_EQ(hit.normal, (Vec3{0, 0, 1})) << "out of the solid, whatever the tool's own is";

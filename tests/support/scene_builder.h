@@ -5,6 +5,7 @@
 #include <array>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -12,7 +13,7 @@
 #include "tenon/accel/accelerator.h"
 #include "tenon/csg/scene_graph.h"
 
-namespace tenon::support {
+namespace tenon::fixtures {
 
 /// Builds scene graphs in nested calls.
 class SceneBuilder {
@@ -20,6 +21,12 @@ class SceneBuilder {
   SceneNodeId primitive(std::string_view kind, const std::vector<FieldValue>& values) {
     const Result<PrimitiveId> id = graph_.primitives.add(*PrimitiveStore::find_kind(kind), values);
     EXPECT_TRUE(id.ok()) << kind;
+    return graph_.add({PrimitiveLeaf{*id}, {}});
+  }
+  /// None when these values make no solid.
+  std::optional<SceneNodeId> try_primitive(const PrimitiveKind& kind, const std::vector<FieldValue>& values) {
+    const Result<PrimitiveId> id = graph_.primitives.add(kind, values);
+    if (!id) return std::nullopt;
     return graph_.add({PrimitiveLeaf{*id}, {}});
   }
   SceneNodeId sphere(double r) { return primitive("sphere", {r}); }
@@ -85,4 +92,4 @@ class Tracer {
   std::unique_ptr<TraceContext> context_;
 };
 
-}  // namespace tenon::support
+}  // namespace tenon::fixtures

@@ -1,0 +1,196 @@
+#pragma once
+
+#include <ostream>
+
+#include "accel/random_solids.h"
+
+/// The scenes that every structure is tried on.
+namespace tenon::gallery {
+
+using fixtures::Draw;
+using fixtures::SceneBuilder;
+
+struct Scene {
+  const char* name;
+  CsgTree (*build)();
+
+  friend void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
+};
+
+inline std::vector<SceneNodeId> random_parts(Draw& draw, SceneBuilder& b, int count, double spread,
+                                             bool may_be_unbounded = true) {
+  std::vector<SceneNodeId> parts;
+  for (int i = 0; i < count; ++i) {
+    parts.push_back(random_place(draw, b, spread, random_primitive(draw, b, may_be_unbounded)));
+  }
+  return parts;
+}
+
+inline CsgTree random_scene(std::uint64_t seed, int count, double spread) {
+  Draw draw(seed);
+  SceneBuilder b;
+  return b.tree(random_tree(draw, b, random_parts(draw, b, count, spread)));
+}
+
+/// Boxes and cylinders whose faces lie in integer planes, so that most of them coincide with others.
+inline SceneNodeId lattice_node(SceneBuilder& b, std::uint64_t seed) {
+  Draw draw(seed);
+  std::vector<SceneNodeId> parts;
+  const auto cell = [&] { return static_cast<double>(draw.below(4)); };
+  for (int i = 0; i < 30; ++i) {
+    const Vec3 lower{cell(), cell(), cell()};
+    const Vec3 size{1.0 + draw.below(2), 1.0 + draw.below(2), 1.0 + draw.below(2)};
+    parts.push_back(b.translate(lower, draw.one_in(4) ? b.cylinder(size.z, 0.5 * size.x) : b.cube(size)));
+  }
+  return random_tree(draw, b, parts);
+}
+
+inline CsgTree nested_scene() {
+  SceneBuilder b;
+  SceneNodeId inner = b.sphere(0.1);
+  for (int i = 2; i < 20; ++i) {
+    const double r = 0.1 * i;
+    inner = b.subtract({i % 2 == 0 ? b.cube({2 * r, 2 * r, 2 * r}, true) : b.sphere(1.7 * r), inner});
+  }
+  return b.tree(inner);
+}
+
+inline CsgTree deep_scene() {
+  Draw draw(11);
+  SceneBuilder b;
+  SceneNodeId node = b.sphere(1);
+  for (int i = 0; i < 150; ++i) {
+    const SceneNodeId next = random_place(draw, b, 1.5, random_primitive(draw, b, false));
+    const int op = draw.below(12);
+    node = op < 7    ? b.unite({node, next})
+           : op < 11 ? b.subtract({node, next})
+                     : b.intersect({node, b.complement(next)});
+  }
+  return b.tree(node);
+}
+
+inline CsgTree flat_scene() {
+  Draw draw(12);
+  SceneBuilder b;
+  std::vector<SceneNodeId> parts;
+  for (int i = 0; i < 30; ++i) {
+    const Vec3 thin{draw.real(0.5, 2), draw.real(0.5, 2), draw.one_in(2) ? 1e-6 : 1e-9};
+    const SceneNodeId part = draw.one_in(2) ? b.cube(thin) : b.transform(Affine3::scale(thin), b.sphere(1));
+    parts.push_back(b.translate(draw.vector(-1, 1), draw.one_in(2) ? b.rotate(draw.vector(0, 90), part) : part));
+  }
+  return b.tree(random_tree(draw, b, parts));
+}
+
+inline CsgTree sized_scene(std::uint64_t seed, double scale, const Vec3& offset) {
+  Draw draw(seed);
+  SceneBuilder b;
+  const SceneNodeId node = random_tree(draw, b, random_parts(draw, b, 16, 1.5, false));
+  return b.tree(b.translate(offset, b.scale(scale, node)));
+}
+
+/// Small solids in a large space: many cells, most of them empty.
+inline CsgTree swarm_scene() {
+  Draw draw(14);
+  SceneBuilder b;
+  std::vector<SceneNodeId> parts;
+  for (int i = 0; i < 300; ++i) {
+    const SceneNodeId part = b.scale(draw.real(0.05, 0.6), random_primitive(draw, b, false));
+    parts.push_back(b.translate(draw.vector(-6, 6), b.rotate(draw.vector(0, 360), part)));
+  }
+  for (std::size_t i = 0; i < parts.size(); i += 10) parts[i] = b.subtract({parts[i], parts[i + 1]});
+  return b.tree(b.unite(parts));
+}
+
+/// Sizes of all orders of magnitude, in one another.
+inline CsgTree scales_scene() {
+  Draw draw(15);
+  SceneBuilder b;
+  std::vector<SceneNodeId> parts;
+  for (double s = 1e-5; s < 1e3; s *= 3) {
+    parts.push_back(b.translate(draw.direction() * (2 * s), b.scale(s, random_primitive(draw, b, false))));
+  }
+  return b.tree(random_tree(draw, b, parts));
+}
+
+inline CsgTree same_place_scene() {
+  Draw draw(16);
+  SceneBuilder b;
+  const SceneNodeId cube = b.cube({1, 1, 1}, true), ball = b.sphere(0.6);
+  std::vector<SceneNodeId> parts;
+  for (int i = 0; i < 60; ++i) parts.push_back(i % 3 == 0 ? ball : cube);
+  return b.tree(b.subtract({b.unite(parts), b.unite({ball, b.sphere(0.55)})}));
+}
+
+/// Glass in glass: overlapping transparent media with priorities, and opaque parts.
+inline CsgTree media_scene(std::uint64_t seed, bool lattice) {
+  CsgTree tree = [&] {
+    SceneBuilder b;
+    if (lattice) return b.tree(lattice_node(b, seed));
+    return random_scene(seed, 14, 1.2);
+  }();
+  Draw draw(seed + 1);
+  tree.has_media = true;
+  for (Leaf& leaf : tree.leaves) {
+    leaf.medium = static_cast<MediumId>(1 + draw.below(4));
+    leaf.priority = draw.below(2);
+    leaf.material = MaterialId{leaf.medium};
+  }
+  return tree;
+}
+
+inline CsgTree lattice_scene(std::uint64_t seed, const Vec3& degrees) {
+  SceneBuilder b;
+  return b.tree(b.rotate(degrees, lattice_node(b, seed)));
+}
+
+inline CsgTree room_scene() {
+  SceneBuilder b;
+  const auto half_space = [&](const Vec3& n, double d) { return b.primitive("halfspace", {n, d}); };
+  const SceneNodeId room = b.intersect({half_space({1, 0, 0}, 2), half_space({-1, 0, 0}, 2), half_space({0, 1, 0}, 2),
+                                        half_space({0, -1, 0.1}, 2), half_space({0, 0, 1}, 2)});
+  return b.tree(b.unite({b.complement(room), b.sphere(1), b.subtract({b.cube({2, 2, 1}), b.sphere(1.2)})}));
+}
+
+inline constexpr Scene scenes[] = {
+    {"random_8", [] { return random_scene(1, 8, 0.8); }},
+    {"random_24", [] { return random_scene(2, 24, 1.5); }},
+    {"random_60", [] { return random_scene(3, 60, 3); }},
+    {"lattice", [] { return lattice_scene(4, {}); }},
+    {"lattice_rotated",
+     [] {
+       return lattice_scene(5, {12.7, 48.1, 77.7});
+     }},
+    {"nested", nested_scene},
+    {"deep", deep_scene},
+    {"flat", flat_scene},
+    {"tiny", [] { return sized_scene(6, 1e-9, {}); }},
+    {"huge", [] { return sized_scene(7, 1e9, {}); }},
+    {"far_away",
+     [] {
+       return sized_scene(8, 1, {1e5, -3e5, 2e5});
+     }},
+    {"swarm", swarm_scene},
+    {"scales", scales_scene},
+    {"same_place", same_place_scene},
+    {"media", [] { return media_scene(9, false); }},
+    {"media_lattice", [] { return media_scene(10, true); }},
+    {"room", room_scene},
+    {"one",
+     [] {
+       SceneBuilder b;
+       return b.tree(b.sphere(1));
+     }},
+    {"none",
+     [] {
+       SceneBuilder b;
+       return b.tree(b.unite({}));
+     }},
+    {"cancelled",
+     [] {
+       SceneBuilder b;
+       const auto c = b.cube({1, 1, 1});
+       return b.tree(b.subtract({c, c}));
+     }},
+};
+
+}  // namespace tenon::gallery
