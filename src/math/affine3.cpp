@@ -10,6 +10,8 @@ namespace {
 // Sine of an angle in [0, 90] degrees.
 double sin_first_quadrant(double degrees) {
   if (degrees == 30) return 0.5;
+  if (degrees == 45) return std::numbers::sqrt2 / 2;
+  if (degrees == 60) return std::numbers::sqrt3 / 2;
   if (degrees == 90) return 1;
   if (degrees > 45) return std::cos((90 - degrees) * (std::numbers::pi / 180));
   return std::sin(degrees * (std::numbers::pi / 180));
