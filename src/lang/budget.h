@@ -12,12 +12,12 @@ struct BudgetExceeded {
 /// What the values of one evaluation may take of the memory.
 class Budget {
  public:
-  /// Lists of 64 million numbers in all; far above any scene, and far below what would make the machine swap.
-  static constexpr std::size_t limit = std::size_t{1} << 30;
+  /// Lists of 32 million numbers in all; far above any scene, and reached within a second.
+  static constexpr std::size_t limit = std::size_t{1} << 29;
 
   void charge(std::size_t bytes) {
     used_ += bytes;
-    if (used_ > limit) throw BudgetExceeded{"lists and strings take more than 1 GiB"};
+    if (used_ > limit) throw BudgetExceeded{"lists and strings take more than 512 MiB"};
   }
   void refund(std::size_t bytes) { used_ -= bytes; }
 

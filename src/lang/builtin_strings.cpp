@@ -11,7 +11,10 @@ namespace {
 
 Value str(const BuiltinCall& call) {
   std::string out;
-  for (const Value& argument : call.arguments) out += format_text(argument, call.environment.symbols);
+  for (const Value& argument : call.arguments) {
+    out += format_text(argument, call.environment.symbols);
+    if (out.size() > Budget::limit) throw BudgetExceeded{"a text is longer than 512 MiB"};
+  }
   return make_string(std::move(out), call.environment.budget);
 }
 

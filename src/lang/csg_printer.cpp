@@ -166,10 +166,10 @@ class CsgPrinter {
     out_ += ']';
   }
 
-  // The shortest text that reads back to the same double.
+  // The shortest text that reads back to the same double; the sign of a zero means nothing.
   void print(double value) {
     std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value + 0.0).ptr;
     out_.append(text.data(), end);
   }
   void print(bool value) { out_ += value ? "true" : "false"; }

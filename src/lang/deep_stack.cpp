@@ -9,7 +9,12 @@ namespace tenon::lang {
 
 namespace {
 
-constexpr std::size_t stack_size = std::size_t{1} << 30;
+// Sanitizers make frames several times as large.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr std::size_t stack_size = std::size_t{1} << 32;
+#else
+constexpr std::size_t stack_size = std::size_t{1} << 29;
+#endif
 // What one step between two checks may take, with room for the library calls it makes.
 constexpr std::size_t reserve = std::size_t{1} << 19;
 

@@ -25,6 +25,7 @@ struct Environment {
   DynamicVariables dynamics;
   std::vector<Symbol> module_stack;  ///< names of the modules being evaluated, for parent_module()
   std::mt19937 random{0};            ///< a fixed seed: the same scene gives the same solid
+  std::size_t calls = 0;             ///< of functions and modules, nested
   Place current;                     ///< of the latest call, for what ends an evaluation without a place of its own
 
   const std::string& text(Symbol symbol) const { return symbols.text(symbol); }
@@ -33,6 +34,35 @@ struct Environment {
 
  private:
   std::unordered_set<std::string> warned_;
+};
+
+/// Counts a nested call for as long as it lasts.
+class CallCount {
+ public:
+  /// More than the deepest scene of the papers needs twice over. What has no end shall end within a second.
+  static constexpr std::size_t deepest = 200'000;
+
+  explicit CallCount(std::size_t& calls) : calls_(calls) {}
+  CallCount(const CallCount&) = delete;
+  CallCount& operator=(const CallCount&) = delete;
+  ~CallCount() {
+    if (counted_) --calls_;
+  }
+  /// Further calls in the place of this one are not nested, and not counted.
+  void count(Place at) {
+    if (counted_) return;
+    if (calls_ >= deepest) {
+      fail(at,
+           "calls are nested more than 200,000 deep; check that the recursion ends, or write a function so that the "
+           "call of itself comes last");
+    }
+    counted_ = true;
+    ++calls_;
+  }
+
+ private:
+  std::size_t& calls_;
+  bool counted_ = false;
 };
 
 /// " (did you mean 'x'?)" with the likeliest of the candidates, or nothing.

@@ -24,8 +24,7 @@ ExpressionEvaluator::ExpressionEvaluator(Environment& environment)
 
 void ExpressionEvaluator::check_depth(Place at) const {
   if (!stack_remains()) {
-    fail(at,
-         "the recursion is too deep; check that it ends, or write a function so that the call of itself comes last");
+    fail(at, "this is nested too deep; check that every recursion ends");
   }
 }
 
@@ -34,6 +33,7 @@ void ExpressionEvaluator::check_depth(Place at) const {
 Value ExpressionEvaluator::evaluate(const Expression& start, Scope& start_scope) {
   check_depth(start.at);
   const DynamicFrame frame(environment_.dynamics);
+  CallCount count(environment_.calls);
   const Expression* e = &start;
   Scope* scope = &start_scope;
   Ref<Scope> keep;
@@ -49,6 +49,7 @@ Value ExpressionEvaluator::evaluate(const Expression& start, Scope& start_scope)
       if (++calls > most_tail_calls) {
         fail(e->at, "a function has called itself 1,000,000 times; check that its recursion ends");
       }
+      count.count(e->at);
       const FunctionDefinition& function = *callee->function.definition;
       Ref<Scope> inner = bind_call(function.parameters, call->arguments, *scope, callee->function.scope, nullptr);
       enter_unit(callee->function.used);

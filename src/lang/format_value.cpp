@@ -35,7 +35,13 @@ std::string rounded_digits(double number, int& exponent) {
   return "1" + digits.substr(1);
 }
 
+// A list may hold one long string many times over, so that its text is far longer than what it takes itself.
+void check_length(const std::string& out) {
+  if (out.size() > Budget::limit) throw BudgetExceeded{"a text is longer than 512 MiB"};
+}
+
 void append_value(const Value& value, const SymbolTable& symbols, std::string& out) {
+  check_length(out);
   if (const double* d = value.number()) {
     out += format_number(*d);
   } else if (const bool* b = value.boolean()) {

@@ -103,6 +103,8 @@ std::optional<Solid> ModuleEvaluator::call(const Instantiation& instantiation, S
 
 Solid ModuleEvaluator::call_user_module(const Instantiation& instantiation, Scope& scope,
                                         const Found<ModuleDefinition>& module) {
+  CallCount count(environment_.calls);
+  count.count(instantiation.at);
   const ModuleDefinition& definition = *module.definition;
   const Ref<Scope> inner =
       expressions_.bind_call(definition.parameters, instantiation.arguments, scope, module.scope, definition.body);

@@ -21,18 +21,18 @@ bool is_no_color(const Rgba& c) {
   return c.r < 0 || c.g < 0 || c.b < 0;
 }
 
-std::optional<Solid> color(ModuleCall& call) {
+// The colour of a call; null, with a warning, where it is none.
+std::optional<Rgba> color_of(ModuleCall& call) {
   const ModuleArguments arguments(call, color_names, UnknownArgument::warn);
   Environment& environment = call.evaluator.environment();
   std::optional<Rgba> c = to_color(arguments[0]);
-  const Solids parts = children_of(call);
   if (!c || is_no_color(*c)) {
     if (!c && arguments.given(0)) {
       environment.warn(arguments.at(0), "there is no colour " + format_value(arguments[0], environment.symbols) +
                                             "; give a CSS name, \"#rrggbb\" or [r, g, b]; it is ignored");
     }
     if (arguments.given(1)) environment.warn(arguments.at(1), "'alpha' is ignored where no colour is given");
-    return call.evaluator.builder().unite(parts);
+    return std::nullopt;
   }
   if (const double* alpha = arguments[1].number()) c->a = *alpha;
   for (const double component : {c->r, c->g, c->b, c->a}) {
@@ -41,7 +41,14 @@ std::optional<Solid> color(ModuleCall& call) {
                        "a colour's components lie between 0 and 1; this one has " + format_number(component));
     }
   }
-  return call.evaluator.builder().wrap(ColorAttribute{*c}, parts);
+  return c;
+}
+
+std::optional<Solid> color(ModuleCall& call) {
+  const std::optional<Rgba> c = color_of(call);
+  const Solids parts = children_of(call);
+  SceneBuilder& builder = call.evaluator.builder();
+  return c ? builder.wrap(ColorAttribute{*c}, parts) : builder.unite(parts);
 }
 
 enum MaterialParameter : std::size_t { name, model, kd, ks, kt, ka, shininess, ior, color_, priority };
@@ -64,7 +71,8 @@ void set_number(const ModuleArguments& arguments, MaterialParameter parameter, d
   }
 }
 
-Material material_of(const ModuleArguments& arguments) {
+Material material_of(ModuleCall& call) {
+  const ModuleArguments arguments(call, material_names, UnknownArgument::fail);
   std::string called;
   if (arguments.given(name)) {
     const String* text = arguments[name].string();
@@ -91,17 +99,24 @@ Material material_of(const ModuleArguments& arguments) {
   return m;
 }
 
-std::optional<Solid> material(ModuleCall& call) {
-  const ModuleArguments arguments(call, material_names, UnknownArgument::fail);
-  const Material m = material_of(arguments);
+void check_energy(ModuleCall& call, const Material& m) {
   const double sum = m.kd + m.ks + m.kt;
   // Three decimal fractions that add up to 1 miss it by the rounding of each, of its derivation from the others, and of
   // the additions.
-  if (std::fabs(sum - 1) > gamma(8)) {
-    call.evaluator.environment().warn(
-        call.at(), "kd + ks + kt is " + format_number(sum) + "; it should be 1, or light is lost or made from nothing");
-  }
-  return call.evaluator.builder().wrap(MaterialAttribute{call.evaluator.builder().intern(m)}, children_of(call));
+  if (std::fabs(sum - 1) <= gamma(8)) return;
+  call.evaluator.environment().warn(
+      call.at(), "kd + ks + kt is " + format_number(sum) + "; it should be 1, or light is lost or made from nothing");
+}
+
+MaterialId intern_material(ModuleCall& call) {
+  const Material m = material_of(call);
+  check_energy(call, m);
+  return call.evaluator.builder().intern(m);
+}
+
+std::optional<Solid> material(ModuleCall& call) {
+  const MaterialId id = intern_material(call);
+  return call.evaluator.builder().wrap(MaterialAttribute{id}, children_of(call));
 }
 
 }  // namespace

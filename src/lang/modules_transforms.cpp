@@ -14,20 +14,6 @@ constexpr std::string_view rotate_names[] = {"a", "v"};
 constexpr std::string_view matrix_names[] = {"m"};
 constexpr std::string_view resize_names[] = {"newsize", "auto", "convexity"};
 
-// The children under a transform. One that flattens space leaves no solid.
-Solid transformed(ModuleCall& call, const Affine3& map) {
-  ModuleEvaluator& evaluator = call.evaluator;
-  const Affine3 outside = std::exchange(evaluator.world_from_here, evaluator.world_from_here * map);
-  const Solids parts = evaluator.children(*call.instantiation.children, call.scope);
-  evaluator.world_from_here = outside;
-  if (!map.inverse()) {
-    evaluator.environment().warn(call.at(), evaluator.environment().text(call.instantiation.name) +
-                                                "() flattens its children here; they make no solid");
-    return Solid::nothing();
-  }
-  return evaluator.builder().wrap(Transform{map}, parts);
-}
-
 // As OpenSCAD: what is no vector is warned of, and does nothing.
 Vec3 vector_argument(ModuleCall& call, const ModuleArguments& arguments, double fallback_z, const Vec3& fallback) {
   if (const auto v = to_vec3(arguments[0], fallback_z)) return *v;
@@ -38,22 +24,22 @@ Vec3 vector_argument(ModuleCall& call, const ModuleArguments& arguments, double 
   return fallback;
 }
 
-std::optional<Solid> translate(ModuleCall& call) {
+Affine3 translate(ModuleCall& call) {
   const ModuleArguments arguments(call, translate_names, UnknownArgument::warn);
-  return transformed(call, Affine3::translate(vector_argument(call, arguments, 0, {})));
+  return Affine3::translate(vector_argument(call, arguments, 0, {}));
 }
 
-std::optional<Solid> scale(ModuleCall& call) {
+Affine3 scale(ModuleCall& call) {
   const ModuleArguments arguments(call, translate_names, UnknownArgument::warn);
   if (const double* factor = arguments[0].number(); factor && std::isfinite(*factor)) {
-    return transformed(call, Affine3::scale({*factor, *factor, *factor}));
+    return Affine3::scale({*factor, *factor, *factor});
   }
-  return transformed(call, Affine3::scale(vector_argument(call, arguments, 1, {1, 1, 1})));
+  return Affine3::scale(vector_argument(call, arguments, 1, {1, 1, 1}));
 }
 
-std::optional<Solid> mirror(ModuleCall& call) {
+Affine3 mirror(ModuleCall& call) {
   const ModuleArguments arguments(call, translate_names, UnknownArgument::warn);
-  return transformed(call, Affine3::mirror(vector_argument(call, arguments, 0, {1, 0, 0})));
+  return Affine3::mirror(vector_argument(call, arguments, 0, {1, 0, 0}));
 }
 
 // Angles about x, y and z; missing ones are zero.
@@ -68,24 +54,24 @@ std::optional<Vec3> euler_angles(const List& list) {
   return angles;
 }
 
-std::optional<Solid> rotate(ModuleCall& call) {
+Affine3 rotate(ModuleCall& call) {
   const ModuleArguments arguments(call, rotate_names, UnknownArgument::warn);
   Environment& environment = call.evaluator.environment();
   if (const List* list = arguments[0].list()) {
     if (const auto angles = euler_angles(*list)) {
       if (arguments.given(1)) environment.warn(arguments.at(1), "'v' is ignored where 'a' is a list");
-      return transformed(call, Affine3::rotate(*angles));
+      return Affine3::rotate(*angles);
     }
   } else if (const double* angle = arguments[0].number(); angle && std::isfinite(*angle)) {
-    if (!arguments.given(1)) return transformed(call, Affine3::rotate(*angle, {0, 0, 1}));
-    if (const auto axis = to_vec3(arguments[1], 0)) return transformed(call, Affine3::rotate(*angle, *axis));
+    if (!arguments.given(1)) return Affine3::rotate(*angle, {0, 0, 1});
+    if (const auto axis = to_vec3(arguments[1], 0)) return Affine3::rotate(*angle, *axis);
     environment.warn(arguments.at(1), "'v' must be an axis of three numbers, not " +
                                           format_value(arguments[1], environment.symbols) + "; the axis is z");
-    return transformed(call, Affine3::rotate(*angle, {0, 0, 1}));
+    return Affine3::rotate(*angle, {0, 0, 1});
   }
   environment.warn(arguments.at(0), "rotate() takes an angle or three angles, not " +
                                         format_value(arguments[0], environment.symbols) + "; it does nothing");
-  return transformed(call, {});
+  return {};
 }
 
 // Three or four rows of up to four numbers; what is missing is as in the identity. Null for anything else.
@@ -110,12 +96,32 @@ std::optional<Affine3> matrix(const Value& value) {
   return map;
 }
 
-std::optional<Solid> multmatrix(ModuleCall& call) {
+Affine3 multmatrix(ModuleCall& call) {
   const ModuleArguments arguments(call, matrix_names, UnknownArgument::warn);
-  if (const auto map = matrix(arguments[0])) return transformed(call, *map);
+  if (const auto map = matrix(arguments[0])) return *map;
   call.evaluator.environment().warn(
       arguments.at(0), "multmatrix() takes four rows of four numbers, the last [0, 0, 0, 1]; it does nothing");
-  return transformed(call, {});
+  return {};
+}
+
+void warn_of_flattening(ModuleCall& call) {
+  Environment& environment = call.evaluator.environment();
+  environment.warn(call.at(),
+                   environment.text(call.instantiation.name) + "() flattens its children here; they make no solid");
+}
+
+// The children under a transform. One that flattens space leaves no solid. What finds the map is a function apart, for
+// this frame stays on the stack while the children are evaluated, and they may nest deep.
+template <Affine3 (*find_map)(ModuleCall&)>
+std::optional<Solid> transformed(ModuleCall& call) {
+  const Affine3 map = find_map(call);
+  ModuleEvaluator& evaluator = call.evaluator;
+  const Affine3 outside = std::exchange(evaluator.world_from_here, evaluator.world_from_here * map);
+  const Solids parts = evaluator.children(*call.instantiation.children, call.scope);
+  evaluator.world_from_here = outside;
+  if (map.inverse()) return evaluator.builder().wrap(Transform{map}, parts);
+  warn_of_flattening(call);
+  return Solid::nothing();
 }
 
 // Which directions follow the one of the largest new size where their own new size is 0.
@@ -152,8 +158,8 @@ std::optional<Solid> resize(ModuleCall& call) {
 
 void add_transform_modules(BuiltinModuleTable& table, SymbolTable& symbols) {
   const std::pair<const char*, BuiltinModule> modules[] = {
-      {"translate", translate}, {"scale", scale},           {"rotate", rotate},
-      {"mirror", mirror},       {"multmatrix", multmatrix}, {"resize", resize},
+      {"translate", transformed<translate>}, {"scale", transformed<scale>},           {"rotate", transformed<rotate>},
+      {"mirror", transformed<mirror>},       {"multmatrix", transformed<multmatrix>}, {"resize", resize},
   };
   for (const auto& [name, module] : modules) table.emplace(symbols.intern(name), module);
 }

@@ -15,9 +15,7 @@ Unit& parse_unit(const SourceText& source, const SourceText* definitions, ParseC
 }
 
 Parser::Parser(const SourceText& source, const SourceText* definitions, ParseContext& context)
-    : context_(context), main_(&source), tokens_(source, context.files) {
-  if (definitions) tokens_.append(*definitions);
-}
+    : context_(context), main_(&source), tokens_(source, definitions, context.files) {}
 
 void Parser::parse(Unit& unit) {
   unit_ = &unit;

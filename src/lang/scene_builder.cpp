@@ -25,7 +25,7 @@ bool any_everything(const Solids& parts, std::size_t first = 0) {
 }  // namespace
 
 Solid SceneBuilder::add(SceneNode node) {
-  if (model_.graph.nodes.size() >= most_nodes) throw BudgetExceeded{"the scene has more than 33 million nodes"};
+  if (model_.graph.nodes.size() >= most_nodes) throw BudgetExceeded{"the scene has more than 16 million nodes"};
   return Solid::of(model_.graph.add(std::move(node)));
 }
 

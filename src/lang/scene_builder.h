@@ -26,8 +26,8 @@ using Solids = std::vector<Solid>;
 /// Builds the model, bottom up.
 class SceneBuilder {
  public:
-  /// Beyond this many nodes (4 GiB of them) a scene is taken for a mistake.
-  static constexpr std::size_t most_nodes = std::size_t{1} << 25;
+  /// Beyond this many nodes (2 GiB of them) a scene is taken for a mistake.
+  static constexpr std::size_t most_nodes = std::size_t{1} << 24;
 
   Solid unite(const Solids& parts);
   Solid intersect(const Solids& parts);

@@ -16,7 +16,8 @@ bool is_builtin_library(const std::string& file_name) {
   return file_name == "tenon.scad" || file_name.ends_with("/tenon.scad");
 }
 
-TokenStream::TokenStream(const SourceText& source, SourceFiles& files) : files_(&files) {
+TokenStream::TokenStream(const SourceText& source, const SourceText* after, SourceFiles& files) : files_(&files) {
+  if (after) lexers_.emplace_back(*after);
   lexers_.emplace_back(source);
   next_ = read();
 }

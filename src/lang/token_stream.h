@@ -10,12 +10,11 @@ namespace tenon::lang {
 /// The tokens of a file with those of the files it includes in their places.
 class TokenStream {
  public:
-  TokenStream(const SourceText& source, SourceFiles& files);
+  /// `after`, where given, goes on where the file ends.
+  TokenStream(const SourceText& source, const SourceText* after, SourceFiles& files);
 
   const Token& peek() const { return next_; }
   Token take();
-  /// Goes on with another text where this one ends.
-  void append(const SourceText& source) { lexers_.insert(lexers_.begin(), Lexer(source)); }
 
  private:
   Token read();
