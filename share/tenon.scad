@@ -1,0 +1,57 @@
+// Stand-ins for Tenon's own modules, so that a scene that says
+//
+//   include <tenon.scad>
+//
+// opens in OpenSCAD too (put this file's folder into OPENSCADPATH). Tenon does not read this file: its modules are built
+// in, and exact. Here round solids have facets, and what is unbounded ends at a distance of tenon_far.
+
+tenon_far = 1e4;
+
+// A torus around z: R from the axis to the middle of the tube, r the tube's radius.
+module torus(R = 1, r = 0.25) rotate_extrude() translate([R, 0]) circle(r);
+
+// One sheet around z, from -h/2 to h/2, of radius `waist` at z = 0 and `r` at both ends.
+module hyperboloid(h = 1, r = 1, waist = 0.5) {
+  steps = 32;
+  slope = (r * r - waist * waist) / (h * h / 4);
+  profile = [for (i = [0:steps]) let(z = h * (i / steps - 0.5)) [sqrt(waist * waist + slope * z * z), z]];
+  rotate_extrude() polygon(concat([[0, -h / 2]], profile, [[0, h / 2]]));
+}
+
+// Apex at the origin, opening along z, capped at z = h with radius r.
+module paraboloid(h = 1, r = 1) {
+  steps = 32;
+  profile = [for (i = [1:steps]) let(s = i / steps) [r * s, h * s * s]];
+  rotate_extrude() polygon(concat([[0, 0]], profile, [[0, h]]));
+}
+
+// The points p with normal * p <= d.
+module halfspace(normal = [0, 0, 1], d = 0) {
+  length = norm(normal);
+  n = normal / length;
+  rotate([0, acos(n.z), atan2(n.y, n.x)])
+    translate([-tenon_far, -tenon_far, d / length - 2 * tenon_far]) cube(2 * tenon_far);
+}
+
+// The points within every plane [nx, ny, nz, d].
+module convex_polyhedron(planes) {
+  intersection_for (p = planes) halfspace([p[0], p[1], p[2]], p[3]);
+}
+
+// Everything outside the union of the children.
+module complement() {
+  difference() {
+    cube(2 * tenon_far, center = true);
+    children();
+  }
+}
+
+module material(name, model, kd, ks, kt, ka, shininess, ior, color, priority) {
+  if (is_undef(color)) children();
+  else color(color) children();
+}
+
+module camera(from, at, up, fov, orthographic) {}
+module light(type, position, direction, angle, softness, color, intensity) {}
+module background(color) {}
+module ambient(color) {}
