@@ -1,0 +1,3 @@
+use <used.scad>
+include <included.scad>
+module chain() { echo(used_function(10)); included_module(); }

@@ -1,0 +1,10 @@
+echo(concat([1],2,[[3]]), concat(), concat("a",[1,2]), concat([[1]],[2]), concat([],[]), concat([1],[0:2]), concat(undef));
+echo(lookup(1.5,[[1,10],[2,20]]), lookup(0,[[1,10],[2,20]]), lookup(5,[[1,10],[2,20]]), lookup(1,[]), lookup("a",[[1,2]]), lookup(1.2,[[3,1],[1,5],[2,9]]));
+echo(lookup(1,[[1,10]]), lookup(3,[[1,10],[2,20]]), lookup(1,5), lookup(1,[[1]]), lookup(1,[["a",2]]), lookup(1.5,[[1,10],[2,20],[0,5]]), lookup(1.5,[[1,10],[1,99],[2,20]]));
+echo(search("a","abcabc"), search("abc","abcabc",0), search(3,[1,2,3,3]), search("ab",[["a",1],["b",2]]), search([1,2],[[1,2],[3,4]]), search("a","aabb",2), search("ab","aabb",2), search("x","abc"));
+echo(search("é","aéb"), search([3],[1,2,3]), search("a",[["b",1],["a",2],["a",3]],0,0), search("b",[["a","b"],["c","b"]],0,1), search(["a"],["b","a"]), search([1],"abc"), search(undef,"a"), search("a",undef), search("a",5));
+echo(search("abe",[["a",1],["b",2],["c",3]]), search("a",["x","a","ba"]), search(2,[[1],[2]]), search([2,3],[1,2,3,2],0), search([[1,2]],[[1,2],[3,4]]), search([[1,2]],[[[1,2],3]]), search(["ab"],[["ab",1]]), search(["ab"],["ab","cd"],1));
+echo(search("ab","abab",1), search("ab","abab",3), search("l","hello",0), search(2,[1,2,2],2), search(2,[1,2,2],0), search(9,[1]));
+echo(search("a",[["a"]],1,3), search(["a","z",1],[["a",1],[1,2]],1), search("az",[["a",1]],0));
+echo(is_undef(undef), is_undef(xx), is_num(1), is_num(0/0), is_bool(true), is_string("a"), is_list([1]), is_list([0:1]), is_function(function(x) x), is_function(1));
+echo(is_num(), is_num(1,2), is_undef(undef.x));

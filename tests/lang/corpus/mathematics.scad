@@ -1,0 +1,18 @@
+echo(sin(30), cos(60), tan(45), tan(90), asin(0.5), acos(0.5), atan(1), atan2(1,1), sin(180), cos(90));
+echo(sin(45), cos(45), sin(1), tan(30), tan(60), tan(135), tan(-90), sin(-30), sin(390), sin(1e10), asin(2), acos(-1), atan(1e300), atan2(0,-1), atan2(1,sqrt(3)), cos(120), sin(60), asin(sqrt(3)/2));
+echo(atan2(0,0), atan2(-1,0), atan2(1,-1), atan2(-1,-1), acos(2), asin(1), asin(-0.5), asin(1/sqrt(2)), atan(sqrt(3)), atan(-1), acos(0), acos(sqrt(3)/2), acos(sqrt(2)/2), atan(1/sqrt(3)));
+echo(sin(0)==0, sin(180)==0, cos(90)==0, cos(270)==0, sin(30)==0.5, cos(60)==0.5, tan(45)==1, tan(225)==1, sin(360)==0, tan(180)==0, sin(150)==0.5, cos(240)==-0.5, cos(45)==sin(45), sin(45)==sqrt(1/2), sin(60)==sqrt(3)/2, tan(60)==sqrt(3), sin(3600030)==0.5);
+echo(asin(0.5)==30, acos(0.5)==60, asin(sqrt(3)/2)==60, asin(sqrt(1/2))==45, atan(1)==45, atan(sqrt(3))==60, atan2(1,1)==45, atan2(1,sqrt(3))==30, atan2(-1,1), acos(-0.5)==120, asin(-1)==-90, asin(-0.5)==-30);
+echo(sin(1/0), cos(0/0), tan(270), tan(450), tan(-45), tan(1e-10), sin(1e15+0.5));
+for (a = [-720:7.5:720]) echo(a, sin(a), cos(a), tan(a));
+for (x = [-1:0.125:1]) echo(x, asin(x), acos(x), atan(x), atan2(x, 0.5), atan2(x, -2));
+echo(round(2.5), round(-2.5), floor(-1.5), ceil(1.2), sign(-3), abs(-3), exp(1), ln(2), log(100), sqrt(-1), pow(2,0.5));
+echo(round(0.5), round(-0.5), round(1e20), floor(-0.2), ceil(-0.2), sign(0), sign(-0), abs(-0.5), round(1.49999), round(-1.5), exp(0), ln(0), log(1000), sqrt(2), pow(0,0));
+echo(pow(-1,0.5), exp("a"), sin("a"), atan2("a",1), sqrt(4), log(0), ln(-1), abs("x"), sign("a"), sign(0/0), abs(true), floor("a"), pow("a",1), pow(2,[1]));
+echo(abs(), abs(1,2), sin(), pow(1), atan2(1));
+echo(min(1,2), min([3,4]), max([]), max("a"), min(), max(1,[2]), min([]), max([1,"a"]), min(1,"a"), max(1,"b"));
+echo(max([1,[2]]), min("a","b"), max(true,false), max([[1]]), max([1,2,3],4), max(1,2,[3]), min(0/0,1), max(0/0,1), max(1,0/0));
+echo(norm([3,4]), norm([1,"a"]), norm(1), norm([]), norm([1,2,2]), norm([[1]]), norm([1/0]), norm());
+echo(cross([1,0,0],[0,1,0]), cross([1,0],[0,1]), cross([1,2,3],[1,2]), cross(1,2), cross([1,2,3],[4,5,6]), cross([1,2],[3,4]), cross([1,2,3],[1,2,"a"]), cross([1,2,3,4],[1,2,3,4]), cross([0/0,1,1],[1,1,1]), cross([1,2,3]));
+echo(len(rands(0,1,5)), rands(0,1,0), rands(1,1,2,5), rands("a",1,1), rands(0,1,2,"a"), rands(0,1,3,42)==rands(0,1,3,42), [for (r = rands(2,3,100)) if (r < 2 || r > 3) r]);
+echo(PI, version(), version_num(), version_num([2019,5]));
