@@ -1,6 +1,7 @@
 #include <png.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csetjmp>
 #include <cstdint>
 #include <vector>
@@ -61,9 +62,9 @@ void encode_row(const float* light, std::size_t components, int bits, std::uint8
   for (std::size_t i = 0; i < components; ++i) {
     const double encoded = srgb_from_linear(static_cast<double>(light[i]));
     if (bits == 8) {
-      out[i] = static_cast<std::uint8_t>(encoded * 255 + 0.5);
+      out[i] = static_cast<std::uint8_t>(std::lround(encoded * 255));
     } else {
-      const auto value = static_cast<std::uint32_t>(encoded * 65535 + 0.5);
+      const auto value = static_cast<std::uint32_t>(std::lround(encoded * 65535));
       out[2 * i] = static_cast<std::uint8_t>(value >> 8U);
       out[2 * i + 1] = static_cast<std::uint8_t>(value & 0xFFU);
     }
