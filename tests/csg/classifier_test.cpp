@@ -100,6 +100,38 @@ TEST(Classifier, InAnIntersectionTheFirstInTreeOrderShowsToo) {
   }
 }
 
+TEST(Classifier, TheOwnerIsTheOneAtTheRunNotWhereTheNextChangeComes) {
+  TreeBuilder b;
+  const CsgNodeId x = b.leaf(), y = b.leaf();
+  const CsgTree tree = b.finish(b.unite({x, y}));
+  const auto runs = runs_of(tree, {{span(2, 4), span(1, 3)}, {}, {}});
+  EXPECT_EQ(times_of(runs), (Times{1, 4}));
+  EXPECT_EQ(runs[0].owner, LeafId{1});
+  EXPECT_EQ(runs[1].owner, LeafId{0});
+}
+
+// x and y end at 2, where only y matters, for z reaches on. Where y begins again, at 4, x would matter; that is not
+// here.
+TEST(Classifier, WhatShowsDoesNotDependOnWhereTheRayIsSettled) {
+  TreeBuilder b;
+  const CsgNodeId x = b.leaf(), z = b.leaf(), y = b.leaf();
+  const CsgTree tree = b.finish(b.intersect({b.unite({x, z}), y}));
+  Spans twice = span(1, 2);
+  for (const Crossing& c : span(4, 5)) twice.push_back(c);
+  const Source source{{span(1, 2), span(1, 3), twice}, {}, {}};
+  const Expression expression = Expression::compile(tree);
+  for (const double limit : {2.5, 3.5, 4.5, inf}) {
+    Classifier<ExpressionState, Source> classifier(ExpressionState(expression), source, tree.leaves.size());
+    classifier.start();
+    for (std::size_t i = 0; i < tree.leaves.size(); ++i) classifier.reveal(LeafId{i});
+    ASSERT_TRUE(classifier.settle(limit)) << "the entry at 1";
+    const auto run = classifier.settle(limit);
+    ASSERT_TRUE(run);
+    EXPECT_EQ(run->t, 2);
+    EXPECT_EQ(run->surface.leaf, LeafId{2}) << "settled at " << limit;
+  }
+}
+
 TEST(Classifier, ARayStartsInsideWhatItsStartLiesIn) {
   TreeBuilder b;
   const CsgTree tree = b.finish(b.leaf());
