@@ -26,7 +26,17 @@
   X(space_tracing, "space-tracing", "levels=3,primitives=2;axes=eye", \
     "boxes halved at their middle, projected CSG trees, spatial index SI (RR-612, 1987)") \
   X(space_tracing_subgrids, "space-tracing-subgrids", "levels=1,sublevels=3;levels=0,sublevels=2,axes=eye", \
-    "space tracing with sub-grids where boxes stay full (RR-612, section 6)")
+    "space tracing with sub-grids where boxes stay full (RR-612, section 6)") \
+  X(bsp, "bsp", "split=macdonald-booth;leaf=1,depth=8;mailbox=off", \
+    "binary space partition, descended from the root (Křivánek & Bubník)") \
+  X(ropes, "ropes", "split=macdonald-booth;leaf=1,depth=8;mailbox=off", \
+    "the same tree with ropes from each face, never back up (Křivánek & Bubník)") \
+  X(rope_trees, "rope-trees", "split=macdonald-booth;leaf=1,depth=8", \
+    "ropes replaced by trees pruned to the face (Křivánek & Bubník)") \
+  X(okd, "okd", "split=msah;clip=off;clip=off,skip=off;traversal-cost=0", \
+    "one kd-tree, and an operation tree with marks (Zajíček 2012)") \
+  X(multi_kd, "multi-kd", "split=msah;traversal-cost=0;mailbox=off", \
+    "a kd-tree for each operand of intersection and difference (Zajíček 2012)")
 // clang-format on
 
 namespace tenon {
