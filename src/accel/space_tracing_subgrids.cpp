@@ -93,21 +93,20 @@ Result<SpaceTracingSubgrids> SpaceTracingSubgrids::build(const BuildInput& input
 
   std::vector<MidpointBox> first =
       subdivide(midpoint_grid(space.box, first_levels), space.root(subtree_of(input.tree)), limits, space.projection);
+  // What boxes may hold is shared out among the sub-grids by what they begin with.
   std::size_t held = 0;
   for (const MidpointBox& box : first) held += 1 + box.primitives;
+  const double share = static_cast<double>(limits.held) / static_cast<double>(held);
 
   limits.levels = all_levels;
-  const std::size_t held_by_all = limits.held;
   for (MidpointBox& box : first) {
     const CellRange place = box.cells(first_levels);
     if (box.level != first_levels || box.primitives <= limits.primitives) {
       result.first_.fill(place, result.boxes_.add(box, space.projection));
       continue;
     }
-    held -= 1 + box.primitives;
-    limits.held = held_by_all - std::min(held, held_by_all);
+    limits.held = static_cast<std::size_t>(share * static_cast<double>(1 + box.primitives));
     const std::vector<MidpointBox> inner = subdivide(grid, std::move(box), limits, space.projection);
-    for (const MidpointBox& b : inner) held += 1 + b.primitives;
     const Levels inner_levels = difference(highest_levels(inner), first_levels);
     result.subgrid_bytes_ += SpatialIndex::memory_bytes(inner_levels);
     if (Status fits = check_index_bytes(name, result.subgrid_bytes_, advice); !fits) return fits.error();
