@@ -22,12 +22,15 @@ Hit make_hit(const CsgTree& tree, const Ray& ray, const Run& run) {
   hit.material = leaf.material;
   if (run.is_surface) return hit;
 
-  // From one medium into another both sides are solid; the leaf's own sense then says which way is out.
-  const bool between_media = run.before != medium_outside && run.after != medium_outside;
-  const bool cut = !between_media && run.leaf_entering != hit.entering;
-  // Subtracted from and added to zero, so that no component is -0, which JSON would print.
-  hit.normal = cut ? Vec3{} - hit.normal : Vec3{} + hit.normal;
+  // Where the ray crosses the leaf and the solid in opposite senses (a cut face, or the far side of one medium that is
+  // the near side of the next) the solid's outward normal is the other one. Subtracted from and added to zero, so that
+  // no component is -0, which JSON would print.
+  const bool opposite = run.leaf_entering != hit.entering;
+  hit.normal = opposite ? Vec3{} - hit.normal : Vec3{} + hit.normal;
   if (!hit.material && run.owner) hit.material = tree[run.owner].material;
+  // Behind glass that touches an opaque solid it is the opaque solid that is seen.
+  const bool between_media = run.before != medium_outside && run.after != medium_outside;
+  if (between_media && run.after == medium_opaque && run.owner) hit.material = tree[run.owner].material;
   return hit;
 }
 

@@ -62,7 +62,8 @@ class MaterialCompiler {
 
   // Solids of one transparent material are one medium; all opaque ones are another.
   MediumId medium_of(const Material& material) {
-    if (!(material.kt > 0)) return medium_opaque;
+    // `phong` follows no refracted ray: it is opaque whatever its kt.
+    if (!(material.kt > 0) || material.model == MaterialModel::phong) return medium_opaque;
     for (std::size_t i = 0; i < media_.size(); ++i) {
       if (media_[i] == material) return static_cast<MediumId>(i + 2);
     }

@@ -12,6 +12,7 @@ using fixtures::SceneBuilder;
 Material named(const char* name, double kt = 0) {
   Material m;
   m.name = name;
+  m.model = kt > 0 ? MaterialModel::whitted : MaterialModel::phong;
   m.kd = 1 - kt;
   m.ks = 0;
   m.kt = kt;
@@ -88,6 +89,31 @@ TEST(CompileScene, SolidsOfOneTransparentMaterialAreOneMedium) {
   EXPECT_NE(leaves[0].medium, leaves[1].medium);
   EXPECT_EQ(leaves[3].medium, medium_opaque);
   EXPECT_EQ(scene.medium_ior.size(), 4u);
+}
+
+TEST(CompileScene, APhongMaterialIsOpaqueWhateverItsTransmission) {
+  SceneBuilder b;
+  Material m = named("odd", 0.5);
+  m.model = MaterialModel::phong;
+  EXPECT_FALSE(compile(b, b.material(0, b.sphere(1)), {m}).tree->has_media);
+}
+
+TEST(CompileScene, BehindGlassThatTouchesItTheOpaqueSolidIsSeen) {
+  // Whichever of the two stands first in the file.
+  for (const bool glass_first : {true, false}) {
+    SceneBuilder b;
+    const SceneNodeId glass = b.material(0, b.box({0, 0, 1}, {2, 2, 2}));
+    const SceneNodeId wall = b.material(1, b.cube({2, 2, 1}));
+    const Scene scene = compile(b, b.unite(glass_first ? std::vector{glass, wall} : std::vector{wall, glass}),
+                                {named("glass", 0.9), named("wall")});
+    support::Tracer tracer(*scene.tree);
+    const Hit front = tracer.first_hit({{1, 1, 5}, {0, 0, -1}});
+    EXPECT_EQ(scene.material(front.material).name, "glass");
+    const Hit back = tracer.first_hit({front.point, {0, 0, -1}}, &front);
+    EXPECT_DOUBLE_EQ(back.t, 1);
+    EXPECT_EQ(scene.material(back.material).name, "wall");
+    EXPECT_EQ(back.normal, (Vec3{0, 0, 1}));
+  }
 }
 
 TEST(CompileScene, ACutFaceShowsTheToolsMaterialOnlyIfItHasOne) {
