@@ -125,12 +125,14 @@ inline void emit_chord(const Chord& chord, Spans& out) {
   enter.hi = std::min(enter.hi, leave.hi);
   leave.lo = std::max(leave.lo, enter.lo);
   // An end at infinity has no error. The last factor covers the roundings of the bound itself.
-  const auto crossing = [](const End& end, bool entering) {
-    const double bound = std::isfinite(end.t) ? std::max({end.hi - end.t, end.t - end.lo, 0.0}) * (1 + gamma(4)) : 0.0;
-    return Crossing{end.t, bound, end.face, entering, false};
+  const auto bound = [](const End& end) {
+    return std::isfinite(end.t) ? std::max({end.hi - end.t, end.t - end.lo, 0.0}) * (1 + gamma(4)) : 0.0;
   };
-  out.push_back(crossing(enter, true));
-  out.push_back(crossing(leave, false));
+  const double enter_bound = bound(enter), leave_bound = bound(leave);
+  // A ray so far off that its squares overflow.
+  if (std::isnan(enter_bound) || std::isnan(leave_bound)) return;
+  out.push_back({enter.t, enter_bound, enter.face, true, false});
+  out.push_back({leave.t, leave_bound, leave.face, false, false});
 }
 
 /// Reports two chords of one solid, the first before the second. Where errors have brought them out of order, the later
