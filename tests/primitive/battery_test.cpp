@@ -80,7 +80,7 @@ TEST_P(Battery, CrossingsAgreeWithTheDefinitionIn113Bits) {
 // The ray is known to within errors; the exact line is any other within them.
 TEST_P(Battery, BoundsHoldForEveryLineWithinTheErrors) {
   Random random(seed());
-  for (int n = 0; n < 60'000; n += rays_per_solid) {
+  for (int n = 0; n < 20'000; n += rays_per_solid) {
     const RandomSolid solid(kind(), random);
     const oracle::Solid<Quad> definition(kind().name, solid.values);
     Spans out;
@@ -95,7 +95,7 @@ TEST_P(Battery, BoundsHoldForEveryLineWithinTheErrors) {
       ray.origin_error = error * abs(oe);
       ray.direction_error = error / solid.size * length_ * abs(de);
       spans(solid.store, solid.id, ray, out = {});
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < 2; ++k) {
         const Vec3 a = random.in_cube(), b = random.in_cube();
         const Vec<Quad> origin = Vec<Quad>(ray.origin) + Vec<Quad>(ray.origin_error * a);
         const Vec<Quad> direction = Vec<Quad>(ray.direction) + Vec<Quad>(ray.direction_error * b);
@@ -113,8 +113,10 @@ TEST_P(Battery, BoundsHoldForEveryLineWithinTheErrors) {
 TEST_P(Battery, RaysThatStartOnAFaceCrossItAtZero) {
   Random random(seed());
   int started = 0;
-  for (int n = 0; n < 40'000; ++n) {
-    const RandomSolid solid(kind(), random);
+  std::optional<RandomSolid> solid_;
+  for (int n = 0; n < 15'000; ++n) {
+    if (n % 20 == 0) solid_.emplace(kind(), random);
+    const RandomSolid& solid = *solid_;
     const oracle::Solid<Quad> definition(kind().name, solid.values);
     const LocalRay first = solid.ray(random);
     Spans out;
@@ -149,21 +151,21 @@ TEST_P(Battery, RaysThatStartOnAFaceCrossItAtZero) {
     ray.origin_error = moved * (1 + 1e-9);
     ray.on_face = static_cast<int>(start.face);
     spans(solid.store, solid.id, ray, out = {});
-    const std::string where = describe(ray.origin, ray.direction) + describe(solid.values);
+    const auto where = [&] { return describe(ray.origin, ray.direction) + describe(solid.values); };
     const double cosine = dot(normalize(normal_here.rounded()), normalize(ray.direction));
     if (std::fabs(cosine) < 1e-3) continue;
 
     const auto at_start =
         std::find_if(out.begin(), out.end(), [](const Crossing& c) { return c.t == 0 && c.bound == 0; });
-    ASSERT_NE(at_start, out.end()) << "no crossing at 0 from face " << start.face << describe(out) << where;
-    EXPECT_EQ(at_start->face, start.face) << describe(out) << where;
-    EXPECT_EQ(at_start->entering, cosine < 0) << describe(out) << where;
+    ASSERT_NE(at_start, out.end()) << "no crossing at 0 from face " << start.face << describe(out) << where();
+    EXPECT_EQ(at_start->face, start.face) << describe(out) << where();
+    EXPECT_EQ(at_start->entering, cosine < 0) << describe(out) << where();
     const auto [middle, span] = around(solid, ray);
     const auto problem = check_against(definition, {p, Vec<Quad>(ray.direction)}, out, middle, span, random, 6,
                                        {length(ray.origin_error), 0, 1e-24});
-    ASSERT_FALSE(problem) << *problem << " from face " << start.face << where;
+    ASSERT_FALSE(problem) << *problem << " from face " << start.face << where();
   }
-  EXPECT_GT(started, 4'000);
+  EXPECT_GT(started, 1'500);
 }
 
 TEST_P(Battery, NormalsAreGradients) {

@@ -48,8 +48,8 @@ struct RayErrors {
 /// when both the place and the direction agree with the surface within the errors of the ray and a few roundings; then
 /// inside and outside are both right.
 template <class T>
-bool lies_in_surface(const oracle::Solid<T>& solid, const exact::Line<T>& line, double t, double span,
-                     const RayErrors& errors) {
+bool decides_nothing(const oracle::Solid<T>& solid, const exact::Line<T>& line, double t, double span,
+                     const RayErrors& errors, double blur) {
   const exact::Vec<T> p = line.at(t);
   const double d_length = length(line.direction.rounded());
   const double coordinate = length(line.origin.rounded()) + (std::fabs(t) + span) * d_length;
@@ -61,6 +61,7 @@ bool lies_in_surface(const oracle::Solid<T>& solid, const exact::Line<T>& line, 
     const double steepness = length(g.rounded());
     const double distance = std::fabs(static_cast<double>(solid.faces(p)[face]));
     const double slope = std::fabs(static_cast<double>(dot(g, line.direction)));
+    if (distance <= blur * coordinate * steepness) return true;
     // A line that leaves the surface by a place's error within the span is as good as in it.
     const double across = turn * d_length + place / span;
     if (distance <= 2 * (place + span * d_length * turn) * steepness && slope <= 4 * across * steepness) return true;
@@ -102,7 +103,7 @@ std::optional<std::string> check_against(const oracle::Solid<T>& solid, const ex
       if (c.t <= t) inside = !inside;
     }
     if (undecided || !std::isfinite(t)) continue;
-    if (solid.contains(line.at(t)) == inside || lies_in_surface(solid, line, t, span, errors)) continue;
+    if (solid.contains(line.at(t)) == inside || decides_nothing(solid, line, t, span, errors, blur)) continue;
     std::ostringstream text;
     text.precision(17);
     text << "at t = " << t << " the crossings say " << (inside ? "inside" : "outside") << ", the definition does not:";
