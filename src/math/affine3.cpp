@@ -53,12 +53,17 @@ Affine3 Affine3::rotate(double degrees, const Vec3& axis) {
             {k * a.x * a.z - s * a.y, k * a.y * a.z + s * a.x, k * a.z * a.z + c, 0}}}};
 }
 
+// I - 2 n n^T / (n·n): without a normal of length 1, every entry takes one rounding less for each root and division.
 Affine3 Affine3::mirror(const Vec3& normal) {
-  if (normal == Vec3{}) return {};
-  const Vec3 n = normalize(normal);
-  return {{{{1 - 2 * n.x * n.x, -2 * n.x * n.y, -2 * n.x * n.z, 0},
-            {-2 * n.x * n.y, 1 - 2 * n.y * n.y, -2 * n.y * n.z, 0},
-            {-2 * n.x * n.z, -2 * n.y * n.z, 1 - 2 * n.z * n.z, 0}}}};
+  const double scale = max_component(abs(normal));
+  if (!(scale > 0) || !std::isfinite(scale)) return {};
+  const Vec3 n = normal / std::ldexp(1.0, std::ilogb(scale));
+  const Vec3 square = n * n;
+  const double k = square.x + square.y + square.z;
+  const double xy = -2 * n.x * n.y / k, xz = -2 * n.x * n.z / k, yz = -2 * n.y * n.z / k;
+  return {{{{(square.y + square.z - square.x) / k, xy, xz, 0},
+            {xy, (square.x + square.z - square.y) / k, yz, 0},
+            {xz, yz, (square.x + square.y - square.z) / k, 0}}}};
 }
 
 std::optional<Affine3> Affine3::inverse() const {

@@ -15,8 +15,8 @@ namespace tenon {
 /// One end of a chord: where the line meets a face.
 struct End : BoundedRoot {
   std::uint32_t face = 0;
+  bool given = false;  ///< the face the ray starts on: known to be at exactly t = 0
 
-  bool is_exact() const { return lo == hi && std::isfinite(lo); }
   bool may_be_at(double other) const { return lo <= other && other <= hi; }
 };
 
@@ -33,8 +33,8 @@ struct Chord {
 /// The later of two entrances. Its interval contains the exact maximum whichever face that belongs to; an exact end
 /// (the face the ray starts on) stands for every other that may lie there too.
 inline End later(const End& a, const End& b) {
-  if (a.is_exact() && b.may_be_at(a.t)) return a;
-  if (b.is_exact() && a.may_be_at(b.t)) return b;
+  if (a.given && b.may_be_at(a.t)) return a;
+  if (b.given && a.may_be_at(b.t)) return b;
   End end = a.t >= b.t ? a : b;
   end.lo = std::max(a.lo, b.lo);
   end.hi = std::max(a.hi, b.hi);
@@ -43,8 +43,8 @@ inline End later(const End& a, const End& b) {
 
 /// The earlier of two exits; see later().
 inline End earlier(const End& a, const End& b) {
-  if (a.is_exact() && b.may_be_at(a.t)) return a;
-  if (b.is_exact() && a.may_be_at(b.t)) return b;
+  if (a.given && b.may_be_at(a.t)) return a;
+  if (b.given && a.may_be_at(b.t)) return b;
   End end = a.t <= b.t ? a : b;
   end.lo = std::min(a.lo, b.lo);
   end.hi = std::min(a.hi, b.hi);
@@ -72,6 +72,7 @@ inline bool clip_half_space(const BoundedLine& f, std::uint32_t face, bool on_fa
   if (!(slope > f.slope_error)) return on_face || f.value <= f.value_error;
   End end;
   end.face = face;
+  end.given = on_face;
   if (!on_face) {
     // Divided by the least and the greatest slope; each quotient takes a rounding of the divisor and two of its own.
     const double distance = f.slope < 0 ? f.value : -f.value;
@@ -116,7 +117,7 @@ inline void emit_chord(const Chord& chord, Spans& out) {
   End enter = chord.enter, leave = chord.leave;
   if (!(enter.t <= leave.t)) {
     if (!(enter.lo <= leave.hi)) return;
-    const double middle = enter.is_exact() ? enter.t : leave.is_exact() ? leave.t : 0.5 * enter.t + 0.5 * leave.t;
+    const double middle = enter.given ? enter.t : leave.given ? leave.t : 0.5 * enter.t + 0.5 * leave.t;
     if (!std::isfinite(middle)) return;
     enter.t = leave.t = middle;
   }

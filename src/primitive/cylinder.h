@@ -96,7 +96,7 @@ struct Cylinder {
     const double a_error = dot(2 * abs(d) + d_error, d_error) + gamma(4) * a;
     const double b_error = dot(abs(o) + o_error, d_error) + dot(abs(d), o_error) + gamma(4) * dot(abs(o), abs(d));
     const End other = lateral_end(solve_deflated(a, b, a_error, b_error), 0, side);
-    const End here{{}, side};
+    const End here{{}, side, true};
     chord.enter = later(chord.enter, b <= 0 ? here : other);
     chord.leave = earlier(chord.leave, b <= 0 ? other : here);
     return true;

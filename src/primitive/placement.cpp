@@ -19,29 +19,34 @@ bool is_finite(const Affine3& map) {
   return is_finite(map.row(0)) && is_finite(map.row(1)) && is_finite(map.row(2)) && is_finite(map.translation());
 }
 
-// A sum whose rounding errors are kept: value() is the rounded sum, slip() what all its roundings amount to.
+// A sum whose rounding errors are kept. Where nothing rounds, the error is zero.
 class TrackedSum {
  public:
   void add(double a) {
     const double sum = sum_ + a;
-    slip_ += sum_error(sum_, a, sum);
+    note(sum_error(sum_, a, sum));
     sum_ = sum;
   }
   void add_product(double a, double b) {
     const double product = a * b;
-    slip_ += product_error(a, b, product);
-    magnitude_ += std::fabs(product);
+    note(product_error(a, b, product));
     add(product);
   }
   double value() const { return sum_; }
-  // slip_ itself is a sum of up to eight terms, each at most u times the magnitude; gamma(8) of that is its rounding.
-  double error() const { return std::fabs(slip_) + gamma(8) * gamma(8) * magnitude_; }
+  /// Bound on what all roundings of value() amount to: at most eight terms, whose sum rounds in turn.
+  double error() const { return slips_ * (1 + gamma(8)); }
+  /// The sum to twice the precision, but for gamma(8) * error().
   double exact() const { return sum_ + slip_; }
 
  private:
+  void note(double slip) {
+    slip_ += slip;
+    slips_ += std::fabs(slip);
+  }
+
   double sum_ = 0;
   double slip_ = 0;
-  double magnitude_ = 0;
+  double slips_ = 0;
 };
 
 // Euclidean norm of all entries of the linear part, rounded up; at least the norm of the map.
@@ -90,7 +95,7 @@ BoundedAffine3 BoundedAffine3::elementary(const Affine3& map) {
     const double largest = max_component(abs(map.row(static_cast<int>(i))));
     for (std::size_t j = 0; j < 3; ++j) {
       const bool exact_zero = map.m[i][j] == 0 && (in_row[i] == 1 || in_column[j] == 1);
-      if (!exact_zero) result.error.m[i][j] = 4 * unit_roundoff * largest;
+      if (!exact_zero) result.error.m[i][j] = 16 * unit_roundoff * largest;
     }
   }
   result.linear_error = frobenius_norm(result.error);

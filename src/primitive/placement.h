@@ -21,9 +21,9 @@ struct BoundedAffine3 {
   double translation_error = 0;
 
   /// One transformation as the scene wrote it. Entries of its linear part came from sines, cosines and a few products,
-  /// so each is within 4u of the largest in its row; the zeros of a row or column with one other entry (a turn around a
-  /// coordinate axis) are exact. A map that sends axes to axes (scaling, mirroring, quarter turns) is exact, and so is
-  /// every translation.
+  /// so each is within 16u of the largest in its row; the zeros of a row or column with one other entry (a turn around
+  /// a coordinate axis) are exact. A map that sends axes to axes (scaling, mirroring, quarter turns) is exact, and so
+  /// is every translation.
   static BoundedAffine3 elementary(const Affine3& map);
 };
 

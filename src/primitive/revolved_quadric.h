@@ -107,12 +107,23 @@ inline bool RevolvedQuadric::find_window(const LocalRay& ray, const Chord& chord
   return begin <= end && std::isfinite(begin) && std::isfinite(end);
 }
 
+// Two roots too near to be told apart are solved again around their own place, as long as that narrows them down: at
+// the tip of a cone, where all terms vanish, a cluster of width sqrt(u) shrinks to u.
 inline QuadraticSet RevolvedQuadric::solve(const LocalRay& ray, double begin, double end) const {
-  const double middle = 0.5 * begin + 0.5 * end, half = 0.5 * (end - begin);
-  const Expansion e = expand(ray, middle, std::max(std::fabs(begin), std::fabs(end)));
-  QuadraticSet set = solve_quadratic(e.a, e.b, e.c, error_at(e, half));
-  for (BoundedRoot* root : {&set.first, &set.second}) *root = lateral_end(*root, middle, side);
-  return set;
+  // A little beyond the window, so that a cluster at its very end (a tip) lies within.
+  double at = 0.5 * begin + 0.5 * end, away = 0.53125 * (end - begin);
+  for (;;) {
+    const Expansion e = expand(ray, at, std::max(std::fabs(at - away), std::fabs(at + away)));
+    QuadraticSet set = solve_quadratic(e.a, e.b, e.c, error_at(e, away));
+    const double middle = 0.5 * (set.first.lo + set.second.hi), half = 0.5 * (set.second.hi - set.first.lo);
+    const bool clustered = half > 0 && set.first.hi >= set.second.lo;
+    if (!clustered || !(half < 0.5 * away) || !(std::fabs(middle) + half <= away)) {
+      for (BoundedRoot* root : {&set.first, &set.second}) *root = lateral_end(*root, at, side);
+      return set;
+    }
+    at += middle;
+    away = half * (1 + gamma(4)) + gamma(2) * std::fabs(at);
+  }
 }
 
 inline QuadraticSet RevolvedQuadric::solve_from_surface(const LocalRay& ray) const {
@@ -142,7 +153,7 @@ inline QuadraticSet RevolvedQuadric::solve_from_surface(const LocalRay& ray) con
 // β = (error + 2 |a| s²) / (1.75 |b|) will do.
 inline void RevolvedQuadric::polish(const LocalRay& ray, BoundedRoot& root) const {
   const double away = std::max(root.hi - root.t, root.t - root.lo);
-  if (!(std::isfinite(root.t) && std::isfinite(away))) return;
+  if (!(std::isfinite(root.t) && std::isfinite(away) && away > 0)) return;
   const Expansion e = expand(ray, root.t, std::fabs(root.t) + away);
   const double slope_here = std::fabs(e.b);
   const double step = -e.c / (2 * e.b);
@@ -170,9 +181,13 @@ inline void RevolvedQuadric::spans(const LocalRay& ray, Spans& out) const {
     return;
   }
   for (BoundedRoot* root : {&set.first, &set.second}) {
-    if (root->lo != root->hi && root->lo <= end && root->hi >= begin) polish(ray, *root);
+    if (root->lo <= end && root->hi >= begin) polish(ray, *root);
   }
-  const End first{set.first, side}, second{set.second, side};
+  // Of the two roots of a ray that starts on the side, one is the start.
+  const auto end_of = [from_side](const BoundedRoot& root) {
+    return End{root, side, from_side && root.t == 0 && root.lo == 0 && root.hi == 0};
+  };
+  const End first = end_of(set.first), second = end_of(set.second);
   if (set.shape == Shape::between) {
     emit_chord({later(slab.enter, first), earlier(slab.leave, second)}, out);
   } else {

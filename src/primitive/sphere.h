@@ -70,7 +70,7 @@ struct Sphere {
     const double b = dot(ray.origin, ray.direction);
     const double a_error = 2 * dot(d, de) + dot(de, de) + gamma(4) * a;
     const double b_error = dot(o, de) + dot(d, oe) + dot(oe, de) + gamma(4) * dot(o, d);
-    const End here, other = lateral_end(solve_deflated(a, b, a_error, b_error), 0, 0);
+    const End here{{}, 0, true}, other = lateral_end(solve_deflated(a, b, a_error, b_error), 0, 0);
     return b <= 0 ? Chord{here, other} : Chord{other, here};
   }
 };

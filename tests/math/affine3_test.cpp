@@ -56,7 +56,7 @@ TEST(Affine3, RotatesAroundXThenYThenZ) {
   Random random(2);
   for (int i = 0; i < 1000; ++i) {
     const Vec3 a = 400 * random.in_cube();
-    // BoundedAffine3::elementary counts on 4u of the largest entry in a row.
+    // BoundedAffine3::elementary counts on 16u of the largest entry in a row.
     const Affine3 rotation = Affine3::rotate(a);
     const exact::Map truth = exact::Map::rotate(a);
     for (std::size_t r = 0; r < 3; ++r) {
@@ -81,6 +81,17 @@ TEST(Affine3, RotatesAroundAnAxis) {
 }
 
 TEST(Affine3, MirrorsInAPlane) {
+  Random random(4);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 n = random.magnitude(-3, 3) * random.direction();
+    const exact::Vec<exact::Quad> e(n);
+    exact::Map truth;
+    const exact::Quad c[3] = {e.x, e.y, e.z};
+    for (int r = 0; r < 3; ++r) {
+      for (int k = 0; k < 3; ++k) truth.m[r][k] -= 2 * c[r] * c[k] / dot(e, e);
+    }
+    expect_near(Affine3::mirror(n), truth, 6 * unit_roundoff);
+  }
   EXPECT_EQ(Affine3::mirror({2, 0, 0}), Affine3::scale({-1, 1, 1}));
   EXPECT_EQ(Affine3::mirror({0, 0, 0}), Affine3{});
   const Affine3 m = Affine3::mirror({1, 2, 3});

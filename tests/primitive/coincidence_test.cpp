@@ -12,7 +12,19 @@ namespace {
 
 class Coincidence : public EveryKind {};
 
+using exact::Line;
+using exact::Quad;
+using exact::Vec;
+
+// A crossing known to no better than its own distance may as well have gone to infinity: the line is all but parallel.
+bool is_anywhere(const Crossing& c) {
+  return c.bound > 0.25 * std::fabs(c.t);
+}
+
 bool meet(const Crossing& a, const Crossing& b) {
+  if (a.t == b.t) return true;
+  if (std::isinf(a.t)) return is_anywhere(b);
+  if (std::isinf(b.t)) return is_anywhere(a);
   return std::fabs(a.t - b.t) <= a.bound + b.bound;
 }
 
@@ -20,10 +32,26 @@ bool meet(const Crossing& a, const Crossing& b) {
 std::optional<std::string> unmatched(const Spans& a, const Spans& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     bool matched = (i > 0 && meet(a[i], a[i - 1])) || (i + 1 < a.size() && meet(a[i], a[i + 1]));
-    for (const Crossing& c : b) matched |= c.entering == a[i].entering && (c.t == a[i].t || meet(c, a[i]));
+    for (const Crossing& c : b) matched |= c.entering == a[i].entering && meet(c, a[i]);
     if (!matched) return "one sees" + describe(a) + "\nthe other" + describe(b);
   }
   return {};
+}
+
+// A line in a flat face, or along a straight line of a curved one, crosses it nowhere that an interval could hold; for
+// it inside and outside are both right.
+bool lies_in_surface(const RandomSolid& solid, const Placement& placement, const Ray& ray, double tolerance,
+                     const Spans& spans) {
+  const oracle::Solid<Quad> definition(solid.store.kind(solid.id).name, solid.values);
+  const auto [local, shift] = placement.to_local(ray, tolerance, -1);
+  const Line<Quad> line{Vec<Quad>(local.origin), Vec<Quad>(local.direction)};
+  const RayErrors errors{length(local.origin_error), length(local.direction_error)};
+  for (std::size_t i = 0; i + 1 < spans.size(); i += 2) {
+    const bool ends = std::isfinite(spans[i].t) && std::isfinite(spans[i + 1].t);
+    const double t = ends ? 0.5 * (spans[i].t + spans[i + 1].t) - shift : 0;
+    if (decides_nothing(definition, line, t, solid.size / length(local.direction), errors, 0)) return true;
+  }
+  return false;
 }
 
 ExactStep rotation(const Vec3& degrees) {
@@ -66,6 +94,7 @@ TEST_P(Coincidence, WhatOneChainSeesTheOtherSeesToo) {
       spans(solid.store, solid.id, *second, ray, tolerance, -1, y);
       disagreements += x.size() != y.size();
       const auto xy = unmatched(x, y), yx = unmatched(y, x);
+      if ((xy || yx) && lies_in_surface(solid, *second, ray, tolerance, x.empty() ? y : x)) continue;
       ASSERT_FALSE(xy) << *xy << describe(ray.origin, ray.direction) << describe(solid.values);
       ASSERT_FALSE(yx) << *yx << describe(ray.origin, ray.direction) << describe(solid.values);
     }
