@@ -13,6 +13,7 @@ using CommandBody = std::function<Status()>;
 CommandBody add_render_command(CLI::App& command);
 CommandBody add_trace_command(CLI::App& command);
 CommandBody add_info_command(CLI::App& command);
+CommandBody add_compare_command(CLI::App& command);
 CommandBody add_convert_command(CLI::App& command);
 
 inline Error usage_error(std::string message) {

@@ -19,9 +19,10 @@ struct Command {
   CommandBody (*add)(CLI::App& command);
 };
 
-constexpr std::array<Command, 4> commands{{
+constexpr std::array<Command, 5> commands{{
     {"render", "Take a picture of a scene", add_render_command},
     {"trace", "Follow rays through a scene; one JSON object a line", add_trace_command},
+    {"compare", "Trace the same rays through every structure, and check the answers", add_compare_command},
     {"info", "Say what a scene holds", add_info_command},
     {"convert", "Write the evaluated scene to another format", add_convert_command},
 }};

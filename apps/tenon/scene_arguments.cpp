@@ -80,7 +80,11 @@ Status TracingArguments::check() const {
     return usage_error("--threads takes a number up to " + std::to_string(max_threads) + " or auto, not '" + threads +
                        "'");
   }
-  const std::string name = accelerator.substr(0, accelerator.find(':'));
+  return check_accelerator(accelerator);
+}
+
+Status check_accelerator(const std::string& spec) {
+  const std::string name = spec.substr(0, spec.find(':'));
   const std::vector<std::string_view> names = accelerator_names();
   if (std::find(names.begin(), names.end(), name) != names.end()) return success();
   std::string there_are;
@@ -128,14 +132,20 @@ Result<TraceableScene> prepare(const SceneArguments& arguments, const TracingArg
     screen = rays->view();
   }
 
-  console.progress().begin("building " + tracing.accelerator);
+  Result<BuiltAccelerator> built = build_timed(tracing.accelerator, *scene, screen ? &*screen : nullptr, console);
+  if (!built) return built.error();
+  return TraceableScene{std::move(*scene), std::move(built->accelerator), built->seconds};
+}
+
+Result<BuiltAccelerator> build_timed(const std::string& spec, const Scene& scene, const ScreenView* view,
+                                     Console& console) {
+  console.progress().begin("building " + spec);
   const auto begun = std::chrono::steady_clock::now();
-  Result<std::unique_ptr<Accelerator>> accelerator =
-      build_accelerator(tracing.accelerator, *scene->tree, screen ? &*screen : nullptr);
+  Result<std::unique_ptr<Accelerator>> accelerator = build_accelerator(spec, *scene.tree, view);
   if (!accelerator) return accelerator.error();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   console.progress().end();
-  return TraceableScene{std::move(*scene), std::move(*accelerator), seconds};
+  return BuiltAccelerator{std::move(*accelerator), seconds};
 }
 
 }  // namespace tenon

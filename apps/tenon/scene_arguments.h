@@ -38,6 +38,9 @@ struct TracingArguments {
   int thread_count() const;
 };
 
+/// A usage error when no structure has this name; options are not looked at.
+Status check_accelerator(const std::string& spec);
+
 /// The structures there are, a line each, for the end of a help text.
 std::string accelerator_help();
 
@@ -72,6 +75,14 @@ struct ViewArguments {
   bool orthographic = false;     ///< parallel rays, covering what the camera sees at the point it looks at
   int width = 0, height = 0;     ///< pixels
 };
+
+/// A structure and how long it took.
+struct BuiltAccelerator {
+  std::unique_ptr<Accelerator> accelerator;
+  double seconds = 0;
+};
+Result<BuiltAccelerator> build_timed(const std::string& spec, const Scene& scene, const ScreenView* view,
+                                     Console& console);
 
 /// Reads the scene and builds the structure.
 /// @param view  none: rays may come from anywhere
