@@ -61,6 +61,34 @@ TEST_P(Corpus, ExpectationsAreOpenscads) {
   fs::remove(out);
 }
 
+TEST(StandIns, OpenASceneOfTenonInOpenscad) {
+  if (std::system("openscad --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "OpenSCAD is not installed";
+  const fs::path scene = fs::temp_directory_path() / "tenon_stand_ins.scad";
+  const fs::path out = fs::temp_directory_path() / "tenon_stand_ins.csg";
+  std::ofstream(scene)
+      << "include <tenon.scad>\n"
+         "material(\"glass\", color = \"red\") torus(R = 2, r = 0.5);\n"
+         "material(kd = 1, ks = 0) { hyperboloid(h = 2, r = 1, waist = 0.4); paraboloid(h = 2, r = 1); }\n"
+         "intersection() { halfspace([1, 1, 1], 0.5); complement() sphere(1); }\n"
+         "convex_polyhedron(planes = [[1, 0, 0, 1], [-1, 0, 0, 1], [0, 1, 0, 1], [0, -1, 0, 1],"
+         "[0, 0, 1, 1], [0, 0, -1, 1]]);\n"
+         "camera(from = [1, 2, 3], at = [0, 0, 0]); light(position = [1, 2, 3]);\n"
+         "background(\"white\"); ambient(0.2);\n";
+  const std::string command =
+      "OPENSCADPATH='" TENON_SHARE "' openscad -o '" + out.string() + "' '" + scene.string() + "' 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const std::string tree = read(out);
+  for (const char* made : {"rotate_extrude", "color([1, 0, 0, 1])", "intersection", "difference"}) {
+    EXPECT_NE(tree.find(made), std::string::npos) << made;
+  }
+  Diagnostics diagnostics;
+  const auto model = load_model(scene, {}, diagnostics);
+  ASSERT_TRUE(model.ok()) << format_error(model.error());
+  EXPECT_EQ(model->graph.primitives.size(), 6u);
+  fs::remove(scene);
+  fs::remove(out);
+}
+
 INSTANTIATE_TEST_SUITE_P(Programs, Corpus, testing::ValuesIn(programs()),
                          [](const auto& instance) { return instance.param; });
 
