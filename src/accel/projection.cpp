@@ -1,5 +1,7 @@
 #include "accel/projection.h"
 
+#include <algorithm>
+
 #include "csg/expression.h"
 
 namespace tenon {
@@ -140,7 +142,9 @@ void Projection::project_intersection(Subtree& out, std::size_t operands) {
     null |= from == to;
     if (to - from == 1 && out[from].kind == Kind::everything) continue;
     ++kept;
-    for (std::size_t k = from; k < to; ++k) out[write++] = out[k];
+    // Moved only behind a gap: a long chain would else be moved once for each of its operations.
+    if (write != from) std::copy(out.data() + from, out.data() + to, out.data() + write);
+    write += to - from;
   }
   out.resize(null ? start : write);
   if (!null && kept == 0) out.push_back({Kind::everything, 0});
