@@ -20,6 +20,7 @@ struct CompareCommand {
   std::string accelerators = "all";
   std::string size = "320x240";
   int depth = 5;
+  std::size_t scattered = 0;
   bool json = false;
 
   Status run() const;
@@ -162,9 +163,10 @@ Status CompareCommand::run() const {
   options.height = plan->height;
   options.depth = depth;
   console.progress().begin("tracing rays with none");
-  const Result<StoredRays> rays =
+  Result<StoredRays> rays =
       StoredRays::record(compiled, *traceable->accelerator, options, &console.progress().counters());
   if (!rays) return rays.error();
+  add_scattered_rays(compiled, *traceable->accelerator, scattered, *rays);
 
   std::vector<Measurements> all;
   std::string differences;
@@ -202,11 +204,16 @@ CommandBody add_compare_command(CLI::App& command) {
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000).description("1 to 1000"));
+  command
+      .add_option("--scattered", arguments->scattered, "Trace this many rays from anywhere in and around the scene too")
+      ->type_name("N")
+      ->capture_default_str();
   command.add_flag("--json", arguments->json, "Print JSON in place of a table, the structures in the order given");
   command.footer(accelerator_help() +
                  "\n\n"
                  "Builds each structure and traces through it, on one thread, the primary, shadow, reflected and\n"
-                 "refracted rays of the picture, checking every answer against none. Exit status 1 when one differs.");
+                 "refracted rays of the picture, checking every answer against none. Scattered rays count as diffuse "
+                 "ones. Exit status 1 when one differs.");
   return [arguments] { return arguments->run(); };
 }
 

@@ -44,8 +44,8 @@ class Walk {
     if (!(t > 0)) return false;
     while (const std::optional<Run> run = classifier_.settle(t)) {
       if (!(run->t < query_.t_max)) {
-        beyond_ = run->before;
-        return done_ = true;
+        end_value_ = run->before;
+        return done_ = ended_ = true;
       }
       if (sink_(*run)) return done_ = true;
     }
@@ -53,7 +53,7 @@ class Walk {
   }
 
   /// The medium at the end of the ray, t_max, once the ray is done without the sink having stopped it.
-  MediumId final_value() const { return beyond_ ? *beyond_ : classifier_.value(); }
+  MediumId final_value() const { return ended_ ? end_value_ : classifier_.value(); }
 
   /// No leaf ahead has been left out: settles the rest of the ray.
   void finish() { settle(std::numeric_limits<double>::infinity()); }
@@ -64,8 +64,9 @@ class Walk {
   TraversalCounters& counters_;
   Sink sink_;
   bool mailbox_ = true;
-  std::optional<MediumId> beyond_;  // before the first boundary behind t_max, when one was met
   bool done_ = false;
+  bool ended_ = false;                   // a boundary behind t_max was met
+  MediumId end_value_ = medium_outside;  // and this is the medium before it
 };
 
 }  // namespace tenon

@@ -40,6 +40,11 @@ class StoredRays {
   std::deque<Hit> starts_;  // what RayQuery::from points to
 };
 
+/// Adds rays that no camera sends, with the oracle's answers, as diffuse rays: from anywhere in and around the bounds,
+/// so that many start inside, in any direction; every third along an axis and from a lattice, on whose planes faces
+/// lie.
+void add_scattered_rays(const Scene& scene, const Accelerator& oracle, std::size_t count, StoredRays& rays);
+
 /// An accelerator that disagrees with the oracle about a ray.
 struct Mismatch {
   RayQuery query;
