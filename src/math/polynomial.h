@@ -143,17 +143,21 @@ template <class F, int Capacity>
 void find_bounded_roots(const F& f, std::span<const double> splits, ShortList<CrossingRoot, Capacity>& roots) {
   const double begin = splits.front(), end = splits.back();
 
-  // The nearest certain place beyond t in one direction, starting at a distance that should do.
-  const auto reach_from = [&](double t, double distance, double direction, double limit) {
+  // The nearest certain place beyond t in one direction, starting at a distance that should do. Up to the next turning
+  // point the sign there has to be the expected one: t itself may be off the zero of f by its last bit.
+  const auto reach_from = [&](double t, double distance, double direction, double limit, bool negative) {
     for (;;) {
       const double at = t + direction * distance;
       if (!((limit - at) * direction > 0)) return limit;
       // The turning points are the most certain places around; do not step over one.
+      bool passed_turn = false;
       for (const double split : splits) {
         const bool between = direction > 0 ? split > t && split < at : split < t && split > at;
         if (between && std::fabs(f.value(split)) > f.error(split)) return split;
+        passed_turn = passed_turn || between;
       }
-      if (std::fabs(f.value(at)) > f.error(at)) return at;
+      const double value = f.value(at);
+      if (std::fabs(value) > f.error(at) && (passed_turn || (value < 0) == negative)) return at;
       distance *= 2;
     }
   };
@@ -167,8 +171,8 @@ void find_bounded_roots(const F& f, std::span<const double> splits, ShortList<Cr
     if (!(distance > least) || !std::isfinite(distance)) distance = least;
     CrossingRoot root;
     root.t = t;
-    root.lo = reach_from(t, distance, -1, begin);
-    root.hi = reach_from(t, distance, 1, end);
+    root.lo = reach_from(t, distance, -1, begin, rising);
+    root.hi = reach_from(t, distance, 1, end, !rising);
     root.rising = rising;
     roots.push_back(root);
   };

@@ -80,9 +80,10 @@ inline BoundedRoot solve_deflated(double a, double b, double a_error, double b_e
     const double bound = (a_error * std::fabs(t) + 2 * b_error) / least;
     return {t, t - bound, t + bound};
   }
+  // Neither coefficient has a certain sign: the root may be anywhere.
+  if (!(std::fabs(b) > b_error)) return {t, -infinity, infinity};
   // The exact root is at least this far away, on this side or beyond infinity on the other.
-  const double most = std::fabs(a) + a_error;
-  const double nearest = most > 0 ? std::max(0.0, 2 * (std::fabs(b) - b_error) / most) : infinity;
+  const double nearest = 2 * (std::fabs(b) - b_error) / (std::fabs(a) + a_error);
   return t >= 0 ? BoundedRoot{t, std::min(nearest, t), infinity} : BoundedRoot{t, -infinity, std::max(-nearest, t)};
 }
 

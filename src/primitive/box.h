@@ -19,7 +19,7 @@ struct Box {
   static constexpr std::string_view name = "cube", scad_name = "cube";
   static constexpr std::string_view doc = "A box along the axes, from the origin or around it.";
   static constexpr bool bounded = true;
-  static constexpr double relative_cost = 1;
+  static constexpr double relative_cost = 1.7;
   static constexpr auto fields() {
     return std::tuple{Field{"size", Unit::length, &Box::size, "edge lengths"},
                       Field{"center", Unit::none, &Box::center, "around the origin"}};

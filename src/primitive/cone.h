@@ -23,7 +23,7 @@ class Cone {
   static constexpr std::string_view name = "cone", scad_name = "cylinder";
   static constexpr std::string_view doc = "A cone around z, or its frustum.";
   static constexpr bool bounded = true;
-  static constexpr double relative_cost = 3.5;
+  static constexpr double relative_cost = 2;
   static constexpr auto fields() {
     return std::tuple{Field{"h", Unit::length, &Cone::h, "height"},
                       Field{"r1", Unit::length, &Cone::r1, "radius of the lower cap"},

@@ -18,7 +18,7 @@ class ConvexPolyhedron {
   static constexpr std::string_view name = "convex_polyhedron", scad_name = "convex_polyhedron";
   static constexpr std::string_view doc = "The intersection of half-spaces normal·p <= d; it must be bounded.";
   static constexpr bool bounded = true;
-  static constexpr double relative_cost = 2;
+  static constexpr double relative_cost = 1.9;
   static constexpr auto fields() {
     return std::tuple{Field{"planes", Unit::none, &ConvexPolyhedron::planes, "normal and d of each half-space"}};
   }

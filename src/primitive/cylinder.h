@@ -23,7 +23,7 @@ struct Cylinder {
   static constexpr std::string_view name = "cylinder", scad_name = "cylinder";
   static constexpr std::string_view doc = "A round cylinder around z.";
   static constexpr bool bounded = true;
-  static constexpr double relative_cost = 1.5;
+  static constexpr double relative_cost = 1.6;
   static constexpr auto fields() {
     return std::tuple{Field{"h", Unit::length, &Cylinder::h, "height"},
                       Field{"r", Unit::length, &Cylinder::r, "radius"},

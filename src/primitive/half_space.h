@@ -28,7 +28,7 @@ struct HalfSpace {
   static constexpr std::string_view name = "halfspace", scad_name = "halfspace";
   static constexpr std::string_view doc = "All points p with normal·p <= d; unbounded.";
   static constexpr bool bounded = false;
-  static constexpr double relative_cost = 0.5;
+  static constexpr double relative_cost = 0.9;
   static constexpr auto fields() {
     return std::tuple{Field{"normal", Unit::none, &HalfSpace::plane_normal, "outward normal of its face, any length"},
                       Field{"d", Unit::length, &HalfSpace::d, "normal·p on its face"}};

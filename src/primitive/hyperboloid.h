@@ -22,7 +22,7 @@ class Hyperboloid {
   static constexpr std::string_view name = "hyperboloid", scad_name = "hyperboloid";
   static constexpr std::string_view doc = "A hyperboloid of one sheet around z, capped at half its height up and down.";
   static constexpr bool bounded = true;
-  static constexpr double relative_cost = 3.5;
+  static constexpr double relative_cost = 2.2;
   static constexpr auto fields() {
     return std::tuple{Field{"h", Unit::length, &Hyperboloid::h, "height"},
                       Field{"r", Unit::length, &Hyperboloid::r, "radius of both caps"},

@@ -21,7 +21,7 @@ class Paraboloid {
   static constexpr std::string_view name = "paraboloid", scad_name = "paraboloid";
   static constexpr std::string_view doc = "A paraboloid with its apex at the origin, opening along z, capped at z = h.";
   static constexpr bool bounded = true;
-  static constexpr double relative_cost = 3.5;
+  static constexpr double relative_cost = 2;
   static constexpr auto fields() {
     return std::tuple{Field{"h", Unit::length, &Paraboloid::h, "height"},
                       Field{"r", Unit::length, &Paraboloid::r, "radius of the cap"}};

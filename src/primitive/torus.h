@@ -21,7 +21,7 @@ struct Torus {
   static constexpr std::string_view name = "torus", scad_name = "torus";
   static constexpr std::string_view doc = "A ring around z at the origin.";
   static constexpr bool bounded = true;
-  static constexpr double relative_cost = 9;
+  static constexpr double relative_cost = 5.3;
   static constexpr auto fields() {
     return std::tuple{Field{"R", Unit::length, &Torus::R, "from the centre to the middle of the tube"},
                       Field{"r", Unit::length, &Torus::r, "radius of the tube, at most R"}};
