@@ -15,8 +15,8 @@ module wheel(radius) {
   }
 }
 
-// Ground and frame: 2.
-paint([0.66, 0.74, 0.60], 0) translate([-30, -30, -0.5]) cube([60, 60, 0.5]);
+// A base plate, no larger than the model needs (the whole space is subdivided), and the frame: 2.
+paint([0.66, 0.74, 0.60], 0) translate([-4, -3, -0.25]) cube([8, 6, 0.25]);
 paint([0.20, 0.22, 0.26]) translate([-2.3, -0.55, 0.6]) cube([4.5, 1.1, 0.22]);
 
 // Boiler, dome and chimney, which is hollow: 5.

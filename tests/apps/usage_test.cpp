@@ -29,8 +29,8 @@ TEST_F(Usage, HelpAndVersionOfEveryCommand) {
 // Each wrong command line, and what its message must name.
 TEST_F(Usage, ErrorsSayWhatIsWrongAndWriteNothing) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
-      {{}, "render, trace, info, convert"},
-      {{"compare", "a.scad"}, "'compare'; there are: render, trace, info, convert"},
+      {{}, "render, trace, compare, info, convert"},
+      {{"compair", "a.scad"}, "'compair'; there are: render, trace, compare, info, convert"},
       {{"a.scad"}, "there is no command 'a.scad'"},
       {{"--frobnicate"}, "--frobnicate"},
       {{"render"}, "SCENE"},

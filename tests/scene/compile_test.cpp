@@ -106,7 +106,7 @@ TEST(CompileScene, BehindGlassThatTouchesItTheOpaqueSolidIsSeen) {
     const SceneNodeId wall = b.material(1, b.cube({2, 2, 1}));
     const Scene scene = compile(b, b.unite(glass_first ? std::vector{glass, wall} : std::vector{wall, glass}),
                                 {named("glass", 0.9), named("wall")});
-    support::Tracer tracer(*scene.tree);
+    fixtures::Tracer tracer(*scene.tree);
     const Hit front = tracer.first_hit({{1, 1, 5}, {0, 0, -1}});
     EXPECT_EQ(scene.material(front.material).name, "glass");
     const Hit back = tracer.first_hit({front.point, {0, 0, -1}}, &front);
