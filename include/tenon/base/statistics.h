@@ -10,7 +10,7 @@ namespace tenon {
 enum class RayKind : std::uint8_t { primary, shadow, reflected, refracted, diffuse };
 inline constexpr std::size_t ray_kind_count = 5;
 inline constexpr std::array<std::string_view, ray_kind_count> ray_kind_names{"primary", "shadow", "reflected",
-                                                                            "refracted", "diffuse"};
+                                                                             "refracted", "diffuse"};
 
 /// What a structure did for the rays of one kind.
 struct TraversalCounters {

@@ -29,13 +29,13 @@ struct LeafFace {
 /// The boundary of the solid met by a ray.
 struct Hit {
   double t = std::numeric_limits<double>::infinity();
-  double bound = 0;              ///< error bound on t
-  Vec3 point;                    ///< ray.at(t)
-  Vec3 normal;                   ///< length 1, pointing out of the solid; of a surface: its own
-  LeafFace surface;              ///< the primitive that shows, and its face
-  MaterialId material;           ///< none: the scene's default material
-  bool entering = false;         ///< the ray enters the solid (or another medium of it)
-  bool is_surface = false;       ///< met a surface that has no inside
+  double bound = 0;                  ///< error bound on t
+  Vec3 point;                        ///< ray.at(t)
+  Vec3 normal;                       ///< length 1, pointing out of the solid; of a surface: its own
+  LeafFace surface;                  ///< the primitive that shows, and its face
+  MaterialId material;               ///< none: the scene's default material
+  bool entering = false;             ///< the ray enters the solid (or another medium of it)
+  bool is_surface = false;           ///< met a surface that has no inside
   MediumId before = medium_outside;  ///< the medium on the ray's side
   MediumId after = medium_outside;   ///< the medium behind
   /// Every face that coincides here: a ray that starts at this hit leaves exactly these.

@@ -40,7 +40,8 @@ struct PrimitiveLeaf {
 
 /// A node of the semantic scene graph (Zajíček 2012, §1.2.2): operations, attributes, primitives.
 struct SceneNode {
-  std::variant<SetOperation, Transform, ColorAttribute, MaterialAttribute, PrimitiveLeaf> content = SetOperation::union_;
+  std::variant<SetOperation, Transform, ColorAttribute, MaterialAttribute, PrimitiveLeaf> content =
+      SetOperation::union_;
   std::vector<SceneNodeId> children;  ///< empty for a leaf; a node may be the child of several parents
 };
 

@@ -52,8 +52,8 @@ constexpr Affine3 operator*(const Affine3& a, const Affine3& b) {
   return c;
 }
 
-/// Sine and cosine of an angle in degrees; exact at multiples of 90 (and sin at 30, cos at 60), and the nearest doubles at
-/// multiples of 30 and 45.
+/// Sine and cosine of an angle in degrees; exact at multiples of 90 (and sin at 30, cos at 60), and the nearest doubles
+/// at multiples of 30 and 45.
 double sin_degrees(double degrees);
 double cos_degrees(double degrees);
 

@@ -50,7 +50,9 @@ constexpr Box3 hull(const Box3& a, const Box3& b) {
   if (b.is_empty()) return a;
   return {min(a.lower, b.lower), max(a.upper, b.upper)};
 }
-constexpr Box3 hull(const Box3& a, const Vec3& p) { return hull(a, Box3{p, p}); }
+constexpr Box3 hull(const Box3& a, const Vec3& p) {
+  return hull(a, Box3{p, p});
+}
 /// What both share; Box3::empty() when that is nothing.
 constexpr Box3 intersection(const Box3& a, const Box3& b) {
   const Box3 c{max(a.lower, b.lower), min(a.upper, b.upper)};

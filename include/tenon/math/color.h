@@ -10,10 +10,18 @@ struct Rgb {
   constexpr Rgb& operator+=(const Rgb& o) { return r += o.r, g += o.g, b += o.b, *this; }
 };
 
-constexpr Rgb operator+(const Rgb& a, const Rgb& b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
-constexpr Rgb operator*(const Rgb& a, double s) { return {a.r * s, a.g * s, a.b * s}; }
-constexpr Rgb operator*(double s, const Rgb& a) { return a * s; }
-constexpr Rgb operator*(const Rgb& a, const Rgb& b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
+constexpr Rgb operator+(const Rgb& a, const Rgb& b) {
+  return {a.r + b.r, a.g + b.g, a.b + b.b};
+}
+constexpr Rgb operator*(const Rgb& a, double s) {
+  return {a.r * s, a.g * s, a.b * s};
+}
+constexpr Rgb operator*(double s, const Rgb& a) {
+  return a * s;
+}
+constexpr Rgb operator*(const Rgb& a, const Rgb& b) {
+  return {a.r * b.r, a.g * b.g, a.b * b.b};
+}
 
 /// A colour as the scene language writes it: sRGB-encoded components in [0, 1], and an opacity.
 struct Rgba {

@@ -18,7 +18,7 @@ struct Model {
   std::vector<Light> lights;        ///< empty: a studio light is chosen from the bounds
   std::optional<Camera> camera;     ///< none: a view is chosen from the bounds
   std::optional<Rgba> background;
-  std::optional<Rgba> ambient;      ///< Ia, the ambient light of the course
+  std::optional<Rgba> ambient;  ///< Ia, the ambient light of the course
 };
 
 }  // namespace tenon
