@@ -12,6 +12,13 @@ namespace {
 // A primitive, or a warning and nothing where its size makes none.
 Solid make_primitive(ModuleCall& call, std::string_view kind, const std::vector<FieldValue>& values) {
   ModuleEvaluator& evaluator = call.evaluator;
+  // OpenSCAD drops them in silence; mostly a semicolon is missing, and with it a part of the solid.
+  if (!call.instantiation.children->instantiations.empty()) {
+    const Instantiation& dropped = *call.instantiation.children->instantiations.front();
+    const std::string name = evaluator.environment().text(call.instantiation.name);
+    evaluator.environment().warn(
+        dropped.at, name + "() has no children; what stands here is dropped (is a ';' missing after " + name + "()?)");
+  }
   const Result<PrimitiveId> made =
       evaluator.builder().model().graph.primitives.add(*PrimitiveStore::find_kind(kind), values);
   if (made) return evaluator.builder().leaf(*made);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -83,6 +84,17 @@ Box3 solid_bounds(const CsgTree& tree) {
   return node_enclosures(tree)[tree.root.get()];
 }
 
+// The bounds without the rounding that was added outward: their ends at the nearest multiples of a power of two that is
+// no larger than the tolerance, so that whole numbers are whole again.
+Box3 on_tolerance_grid(const Box3& bounds, double tolerance) {
+  if (!bounds.is_bounded() || !(tolerance > 0)) return bounds;
+  const double step = std::ldexp(1.0, std::ilogb(tolerance));
+  const auto snapped = [step](const Vec3& v) {
+    return Vec3{std::round(v.x / step) * step, std::round(v.y / step) * step, std::round(v.z / step) * step} + Vec3{};
+  };
+  return {snapped(bounds.lower), snapped(bounds.upper)};
+}
+
 // The bounds a view is chosen from; a scene without any (a half-space alone) is looked at around the origin.
 Box3 view_bounds(const CsgTree& tree) {
   Box3 bounds = solid_bounds(tree);
@@ -128,7 +140,7 @@ SceneFigures scene_figures(const Scene& scene) {
   }
   for (const CsgNode& node : tree.nodes) figures.operations += node.operation != CsgOperation::leaf;
   figures.depth = tree.depth();
-  figures.bounds = solid_bounds(tree);
+  figures.bounds = on_tolerance_grid(solid_bounds(tree), tree.tolerance.distance);
   figures.tolerance = tree.tolerance.distance;
   figures.materials = scene.materials.size();
   figures.lights = scene.lights.size();

@@ -56,6 +56,7 @@ TEST(Messages, WarningsHaveAPlaceAndComeOnce) {
   EXPECT_NE(warnings_of("echo(sine(3));").find("there is no function 'sine' (did you mean 'sin'?)"), std::string::npos);
   EXPECT_NE(warnings_of("sphere(radius = 3);").find("sphere() has no parameter 'radius'"), std::string::npos);
   EXPECT_NE(warnings_of("a = 1;\na = 2;").find("2:1: warning: 'a' was assigned in line 1 already"), std::string::npos);
+  EXPECT_NE(warnings_of("cube(1)\nsphere(2);").find("2:1: warning: cube() has no children"), std::string::npos);
   EXPECT_NE(warnings_of("x = [3:1];").find("write [3:-1:1]"), std::string::npos);
 }
 

@@ -166,7 +166,7 @@ TEST(SceneFigures, CountsWhatWasModelled) {
   EXPECT_EQ(figures.operations, 2u);
   EXPECT_EQ(figures.depth, 3);
   ASSERT_EQ(figures.primitives_by_kind.size(), 2u);
-  EXPECT_TRUE(figures.bounds.contains(Box3{{0, 0, 0}, {2, 2, 2}}));
+  EXPECT_EQ(figures.bounds, (Box3{{0, 0, 0}, {2, 2, 2}})) << "what a person wrote, without rounding";
 }
 
 }  // namespace
