@@ -24,7 +24,7 @@ struct CellFace {
   int axis = 0;
   bool above = false;
 
-  std::size_t index() const { return static_cast<std::size_t>(2 * axis + (above ? 1 : 0)); }
+  std::size_t index() const { return 2 * static_cast<std::size_t>(axis) + (above ? 1 : 0); }
 };
 
 /// Which neighbours across a face a node's children hold.

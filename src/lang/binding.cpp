@@ -31,7 +31,9 @@ Ref<Scope> ExpressionEvaluator::bind_let(const std::vector<Argument>& bindings, 
 
 Ref<Scope> ExpressionEvaluator::bind_call(const std::vector<Parameter>& parameters,
                                           const std::vector<Argument>& arguments, Scope& caller,
-                                          Ref<Scope> definition_scope, const Block* body) {
+                                          // Held, since evaluating the arguments may drop its last other owner.
+                                          Ref<Scope> definition_scope,  // NOLINT(performance-unnecessary-value-param)
+                                          const Block* body) {
   std::vector<Value> values;
   values.reserve(arguments.size());
   for (const Argument& argument : arguments) values.push_back(evaluate(*argument.value, caller));

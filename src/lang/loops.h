@@ -19,7 +19,8 @@ std::size_t count_turns(const Range& range, Place at, Environment& environment);
 
 template <class Turn>
 void iterate(const Value& value, Place at, Environment& environment, Turn&& turn) {
-  const Value held = value;  // a turn may end the life of what it runs over
+  // A turn may end the life of what it runs over.
+  const Value held = value;  // NOLINT(performance-unnecessary-copy-initialization)
   if (const Range* range = held.range()) {
     const std::size_t count = count_turns(*range, at, environment);
     for (std::size_t i = 0; i < count; ++i) turn(Value(range->at(i)));

@@ -118,7 +118,8 @@ inline QuadraticSet RevolvedQuadric::solve(const LocalRay& ray, double begin, do
     const double middle = 0.5 * (set.first.lo + set.second.hi), half = 0.5 * (set.second.hi - set.first.lo);
     const bool clustered = half > 0 && set.first.hi >= set.second.lo;
     if (!clustered || !(half < 0.5 * away) || !(std::fabs(middle) + half <= away)) {
-      for (BoundedRoot* root : {&set.first, &set.second}) *root = lateral_end(*root, at, side);
+      for (BoundedRoot* root : {&set.first, &set.second})
+        *root = lateral_end(*root, at, side);  // NOLINT(cppcoreguidelines-slicing): the face is set apart
       return set;
     }
     at += middle;
