@@ -25,6 +25,26 @@ module paraboloid(h = 1, r = 1) {
   rotate_extrude() polygon(concat([[0, 0]], profile, [[0, h]]));
 }
 
+// Closed loops of corners [x, y] or [x, y, bulge]. Here an arc has 32 segments.
+module tenon_outline(outline) {
+  function arc(a, b, bulge) = let(
+    w = [b[0] - a[0], b[1] - a[1]], k = (1 - bulge * bulge) / (4 * bulge),
+    c = [(a[0] + b[0]) / 2 - k * w[1], (a[1] + b[1]) / 2 + k * w[0]], p = [a[0] - c[0], a[1] - c[1]], steps = 32
+  ) [for (i = [0:steps - 1]) let(t = 4 * atan(bulge) * i / steps)
+    [c[0] + p[0] * cos(t) - p[1] * sin(t), c[1] + p[0] * sin(t) + p[1] * cos(t)]];
+  loops = [for (l = outline) [for (i = [0:len(l) - 1]) let(a = l[i], b = l[(i + 1) % len(l)])
+    each (is_undef(a[2]) || a[2] == 0 ? [[a[0], a[1]]] : arc(a, b, a[2]))]];
+  function first(n) = n == 0 ? 0 : first(n - 1) + len(loops[n - 1]);
+  polygon([for (l = loops) each l], [for (i = [0:len(loops) - 1]) [for (j = [0:len(loops[i]) - 1]) first(i) + j]]);
+}
+
+// An outline swept along z.
+module prism(outline, h = 1, center = false, scale = 1)
+  linear_extrude(height = h, center = center, scale = scale) tenon_outline(outline);
+
+// An outline turned around z.
+module revolution(outline) rotate_extrude() tenon_outline(outline);
+
 // The points p with normal * p <= d.
 module halfspace(normal = [0, 0, 1], d = 0) {
   length = norm(normal);

@@ -182,6 +182,20 @@ class CsgPrinter {
     }
     out_ += ']';
   }
+  void print(const Outline& outline) {
+    out_ += '[';
+    for (std::size_t i = 0; i < outline.loops.size(); ++i) {
+      out_ += i > 0 ? ", [" : "[";
+      const auto& loop = outline.loops[i];
+      for (std::size_t j = 0; j < loop.size(); ++j) {
+        if (j > 0) out_ += ", ";
+        const std::array corner{loop[j].x, loop[j].y, loop[j].bulge};
+        numbers(std::span(corner).first(loop[j].bulge == 0 ? 2 : 3));
+      }
+      out_ += ']';
+    }
+    out_ += ']';
+  }
   void print(const std::string& text) {
     out_ += '"';
     for (const char c : text) {

@@ -16,6 +16,7 @@ ModuleEvaluator::ModuleEvaluator(Environment& environment, const LoadOptions& op
   add_transform_modules(builtins_, symbols);
   add_attribute_modules(builtins_, symbols);
   add_primitive_modules(builtins_, symbols);
+  add_plane_modules(builtins_, symbols);
   add_view_modules(builtins_, symbols);
   add_unsupported_modules(builtins_, symbols);
 }
@@ -52,6 +53,11 @@ void ModuleEvaluator::evaluate(const Unit& unit) {
          "the scene is all of space; intersect the complement with a solid that bounds it");
   }
   builder_.model().graph.root = solid.node;
+  if (!solid.flat) return;
+  environment_.warn({unit.block.instantiations.front()->at},
+                    "the scene is a shape of the plane; it is drawn 1 thick, as OpenSCAD's preview does. Extrude it");
+  const Transform middle{Affine3::translate({0, 0, -0.5})};
+  builder_.model().graph.root = builder_.wrap(middle, {solid}).node;
 }
 
 // A block without definitions needs no scope of its own; so a name is found at once however deep braces are nested.
@@ -87,7 +93,15 @@ void ModuleEvaluator::instantiate(const Instantiation& instantiation, Scope& sco
     if (root_) environment_.warn(instantiation.at, "there is more than one '!'; only the first counts");
     if (!root_) root_ = made;
   }
-  if (!instantiation.background) out.push_back(*made);
+  if (instantiation.background) return;
+  const auto other = std::find_if(out.begin(), out.end(), [](const Solid& s) { return !s.is_nothing(); });
+  if (other != out.end() && !made->is_nothing() && other->flat != made->flat) {
+    environment_.warn(instantiation.at, made->flat
+                                            ? "a shape of the plane stands beside solids; it is dropped. Extrude it"
+                                            : "a solid stands beside shapes of the plane; it is dropped");
+    return;
+  }
+  out.push_back(*made);
 }
 
 std::optional<Solid> ModuleEvaluator::call(const Instantiation& instantiation, Scope& scope) {

@@ -2,55 +2,15 @@
 
 #include "lang/facets.h"
 #include "lang/format.h"
-#include "lang/module_arguments.h"
 #include "lang/polyhedron.h"
+#include "lang/primitive_arguments.h"
 
 namespace tenon::lang {
 
 namespace {
 
-// A primitive, or a warning and nothing where its size makes none.
-Solid make_primitive(ModuleCall& call, std::string_view kind, const std::vector<FieldValue>& values) {
-  ModuleEvaluator& evaluator = call.evaluator;
-  // OpenSCAD drops them in silence; mostly a semicolon is missing, and with it a part of the solid.
-  if (!call.instantiation.children->instantiations.empty()) {
-    const Instantiation& dropped = *call.instantiation.children->instantiations.front();
-    const std::string name = evaluator.environment().text(call.instantiation.name);
-    evaluator.environment().warn(
-        dropped.at, name + "() has no children; what stands here is dropped (is a ';' missing after " + name + "()?)");
-  }
-  const Result<PrimitiveId> made =
-      evaluator.builder().model().graph.primitives.add(*PrimitiveStore::find_kind(kind), values);
-  if (made) return evaluator.builder().leaf(*made);
-  evaluator.environment().warn(call.at(), made.error().message);
-  return Solid::nothing();
-}
-
 Solid make_polyhedron(ModuleCall& call, std::vector<Plane> planes) {
   return make_primitive(call, "convex_polyhedron", {FieldValue(std::move(planes))});
-}
-
-// As in OpenSCAD, what is no number is as if it had not been given, but not silently.
-std::optional<double> number_argument(ModuleCall& call, const ModuleArguments& arguments, std::size_t index,
-                                      std::string_view name) {
-  if (!arguments.given(index)) return std::nullopt;
-  if (const double* number = arguments[index].number()) return *number;
-  Environment& environment = call.evaluator.environment();
-  environment.warn(arguments.at(index), "'" + std::string(name) + "' must be a number, not " +
-                                            format_value(arguments[index], environment.symbols) + "; it is ignored");
-  return std::nullopt;
-}
-
-// A radius, or half of a diameter; the diameter goes first.
-std::optional<double> radius_argument(ModuleCall& call, const ModuleArguments& arguments, std::size_t r, std::size_t d,
-                                      std::string_view name) {
-  const auto diameter = number_argument(call, arguments, d, "d" + std::string(name.substr(1)));
-  const auto radius = number_argument(call, arguments, r, name);
-  if (diameter && radius) {
-    call.evaluator.environment().warn(arguments.at(r),
-                                      "'" + std::string(name) + "' is ignored where the diameter is given too");
-  }
-  return diameter ? std::optional(*diameter / 2) : radius;
 }
 
 std::optional<Solid> cube(ModuleCall& call) {
@@ -170,12 +130,33 @@ std::vector<Plane> require_planes(const ModuleArguments& arguments, std::size_t 
   return planes;
 }
 
+Outline require_outline(const ModuleArguments& arguments, std::size_t index, std::string_view name) {
+  const std::string message = "'" + std::string(name) +
+                              "' must be a list of loops, each a list of corners [x, y] or [x, y, bulge], where the "
+                              "bulge of an arc to the next corner is the tangent of a quarter of its angle";
+  const List* list = arguments[index].list();
+  if (!list) fail(arguments.at(index), message);
+  Outline outline;
+  for (const Value& item : list->items()) {
+    const List* corners = item.list();
+    if (!corners) fail(arguments.at(index), message);
+    auto& loop = outline.loops.emplace_back();
+    for (const Value& corner : corners->items()) {
+      const auto numbers = to_vec3(corner, 0);
+      if (!numbers) fail(arguments.at(index), message);
+      loop.push_back({numbers->x, numbers->y, numbers->z});
+    }
+  }
+  return outline;
+}
+
 // The value of a field, of the type of its fallback.
 FieldValue require_field(const ModuleArguments& arguments, std::size_t index, const FieldInfo& field) {
   if (!arguments.given(index)) return field.fallback;
   if (std::holds_alternative<double>(field.fallback)) return require_number(arguments, index, field.name);
   if (std::holds_alternative<Vec3>(field.fallback)) return require_vec3(arguments, index, field.name);
   if (std::holds_alternative<std::vector<Plane>>(field.fallback)) return require_planes(arguments, index, field.name);
+  if (std::holds_alternative<Outline>(field.fallback)) return require_outline(arguments, index, field.name);
   const bool* truth = arguments[index].boolean();
   if (!truth) fail(arguments.at(index), "'" + std::string(field.name) + "' must be true or false");
   return *truth;

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lang/flat_shapes.h"
 #include "lang/format.h"
 #include "lang/module_arguments.h"
 #include "lang/resize.h"
@@ -119,7 +120,8 @@ std::optional<Solid> transformed(ModuleCall& call) {
   const Affine3 outside = std::exchange(evaluator.world_from_here, evaluator.world_from_here * map);
   const Solids parts = evaluator.children(*call.instantiation.children, call.scope);
   evaluator.world_from_here = outside;
-  if (map.inverse()) return evaluator.builder().wrap(Transform{map}, parts);
+  const Affine3 used = are_flat(parts) ? flattened(map) : map;
+  if (used.inverse()) return evaluator.builder().wrap(Transform{used}, parts);
   warn_of_flattening(call);
   return Solid::nothing();
 }
@@ -150,7 +152,10 @@ std::optional<Solid> resize(ModuleCall& call) {
   ModuleEvaluator& evaluator = call.evaluator;
   const Solid whole = evaluator.builder().unite(evaluator.children(*call.instantiation.children, call.scope));
   if (whole.is_nothing()) return whole;
-  const Affine3 map = resizing(evaluator, whole, new_size(arguments[0]), automatic_directions(arguments[1]), call.at());
+  Vec3 size = new_size(arguments[0]);
+  std::array<bool, 3> automatic = automatic_directions(arguments[1]);
+  if (whole.flat) size.z = 0, automatic[2] = false;
+  const Affine3 map = resizing(evaluator, whole, size, automatic, call.at());
   return evaluator.builder().wrap(Transform{map}, {whole});
 }
 

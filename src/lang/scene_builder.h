@@ -13,15 +13,19 @@ struct Solid {
 
   Extent extent = Extent::nothing;
   SceneNodeId node;
+  bool flat = false;  ///< a shape of the plane (flat_shapes.h)
 
   static Solid nothing() { return {}; }
-  static Solid everything() { return {Extent::everything, {}}; }
-  static Solid of(SceneNodeId id) { return {Extent::node, id}; }
+  static Solid everything() { return {Extent::everything, {}, false}; }
+  static Solid of(SceneNodeId id, bool flat = false) { return {Extent::node, id, flat}; }
 
   bool is_nothing() const { return extent == Extent::nothing; }
   bool is_everything() const { return extent == Extent::everything; }
 };
 using Solids = std::vector<Solid>;
+
+/// Whether parts are shapes of the plane: the first that is something tells.
+bool are_flat(const Solids& parts);
 
 /// Builds the model, bottom up.
 class SceneBuilder {
@@ -50,7 +54,7 @@ class SceneBuilder {
  private:
   template <class Content>
   Solid wrap_any(const Content& content, const Solids& parts);
-  Solid add(SceneNode node);
+  Solid add(SceneNode node, bool flat);
 
   Model model_;
 };

@@ -7,6 +7,8 @@
 #include "primitive/half_space.h"
 #include "primitive/hyperboloid.h"
 #include "primitive/paraboloid.h"
+#include "primitive/prism.h"
+#include "primitive/revolution.h"
 #include "primitive/sphere.h"
 #include "primitive/torus.h"
 
@@ -16,7 +18,7 @@ template <SolidPrimitive... P>
 struct PrimitiveList {};
 
 /// Every kind of primitive, in the order of PrimitiveStore::kinds(). For the dispatch unit and the store only.
-using AllPrimitives =
-    PrimitiveList<Sphere, Box, Cylinder, Cone, Torus, Hyperboloid, Paraboloid, HalfSpace, ConvexPolyhedron>;
+using AllPrimitives = PrimitiveList<Sphere, Box, Cylinder, Cone, Torus, Hyperboloid, Paraboloid, HalfSpace,
+                                    ConvexPolyhedron, Prism, Revolution>;
 
 }  // namespace tenon

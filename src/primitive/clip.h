@@ -59,31 +59,36 @@ struct BoundedLine {
   double slope_error = 0;
 };
 
-/// Cuts a chord with the half-space f(t) <= 0.
+/// Where f(t) = 0: at t = -value / slope, with the interval of all quotients within the errors.
 ///
-/// The crossing is at t = -value / slope, with the interval of all quotients within the errors. Where the slope may be
-/// zero the line counts as parallel to the plane: it is inside when f may be <= 0 at t = 0 (closed: a ray in the face
-/// counts as inside).
+/// @param f        its slope is not zero within its error
+/// @param on_face  the line is known to meet this plane at exactly t = 0
+inline End plane_end(const BoundedLine& f, std::uint32_t face, bool on_face) {
+  End end;
+  end.face = face;
+  end.given = on_face;
+  if (on_face) return end;
+  // Divided by the least and the greatest slope; each quotient takes a rounding of the divisor and two of its own.
+  const double slope = std::fabs(f.slope);
+  const double distance = f.slope < 0 ? f.value : -f.value;
+  const double low = distance - f.value_error, high = distance + f.value_error;
+  const double steep = 1 / (slope + f.slope_error), shallow = 1 / (slope - f.slope_error);
+  end.t = distance / slope;
+  end.lo = low * (low >= 0 ? steep : shallow);
+  end.hi = high * (high >= 0 ? shallow : steep);
+  end.lo -= gamma(5) * std::fabs(end.lo);
+  end.hi += gamma(5) * std::fabs(end.hi);
+  return end;
+}
+
+/// Cuts a chord with the half-space f(t) <= 0. Where the slope may be zero the line counts as parallel to the plane: it
+/// is inside when f may be <= 0 at t = 0 (closed: a ray in the face counts as inside).
 ///
 /// @param on_face  the line is known to meet this plane at exactly t = 0
 /// @return false when the line is parallel and outside
 inline bool clip_half_space(const BoundedLine& f, std::uint32_t face, bool on_face, Chord& chord) {
-  const double slope = std::fabs(f.slope);
-  if (!(slope > f.slope_error)) return on_face || f.value <= f.value_error;
-  End end;
-  end.face = face;
-  end.given = on_face;
-  if (!on_face) {
-    // Divided by the least and the greatest slope; each quotient takes a rounding of the divisor and two of its own.
-    const double distance = f.slope < 0 ? f.value : -f.value;
-    const double low = distance - f.value_error, high = distance + f.value_error;
-    const double steep = 1 / (slope + f.slope_error), shallow = 1 / (slope - f.slope_error);
-    end.t = distance / slope;
-    end.lo = low * (low >= 0 ? steep : shallow);
-    end.hi = high * (high >= 0 ? shallow : steep);
-    end.lo -= gamma(5) * std::fabs(end.lo);
-    end.hi += gamma(5) * std::fabs(end.hi);
-  }
+  if (!(std::fabs(f.slope) > f.slope_error)) return on_face || f.value <= f.value_error;
+  const End end = plane_end(f, face, on_face);
   if (f.slope < 0) {
     chord.enter = later(chord.enter, end);
   } else {
@@ -136,17 +141,22 @@ inline void emit_chord(const Chord& chord, Spans& out) {
   out.push_back({leave.t, leave_bound, leave.face, false, false});
 }
 
-/// Reports two chords of one solid, the first before the second. Where errors have brought them out of order, the later
-/// crossings are moved up to the earlier ones, by no more than their bounds.
-inline void emit_chords(const Chord& first, const Chord& second, Spans& out) {
-  const std::size_t begin = out.size();
-  emit_chord(first, out);
-  emit_chord(second, out);
+/// Where errors have brought the crossings of one solid out of order, from the one with index `begin` on, the later
+/// ones are moved up to the earlier ones, by no more than their bounds.
+inline void put_in_order(std::size_t begin, Spans& out) {
   for (std::size_t i = begin + 1; i < out.size(); ++i) {
     if (out[i].t >= out[i - 1].t) continue;
     out[i].bound += out[i - 1].t - out[i].t;
     out[i].t = out[i - 1].t;
   }
+}
+
+/// Reports two chords of one solid, the first before the second.
+inline void emit_chords(const Chord& first, const Chord& second, Spans& out) {
+  const std::size_t begin = out.size();
+  emit_chord(first, out);
+  emit_chord(second, out);
+  put_in_order(begin, out);
 }
 
 /// The end of a root of a lateral surface, moved back by the expansion point; the move rounds once.

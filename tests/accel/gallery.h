@@ -138,6 +138,30 @@ inline CsgTree media_scene(std::uint64_t seed, bool lattice) {
   return tree;
 }
 
+/// Prisms of outlines with holes and arcs, cut by prisms and cylinders whose caps and walls lie in theirs.
+inline CsgTree outlines_scene() {
+  SceneBuilder b;
+  const Outline slot{{{{-1, -0.5, 0}, {1, -0.5, 1}, {1, 0.5, 0}, {-1, 0.5, 1}}}};
+  const Outline frame{{{{-2, -1, 0}, {2, -1, 0}, {2, 1, 0.5}, {-2, 1, 0}}, {{-1, -0.5, 0}, {1, -0.5, 0}, {0, 0.5, 0}}}};
+  Outline gear{{{}}};
+  for (int i = 0; i < 40; ++i) {
+    const double r = i % 4 < 2 ? 1 : 1.25;
+    gear.loops[0].push_back({r * cos_degrees(9 * i), r * sin_degrees(9 * i), 0});
+  }
+  const auto prism = [&](const Outline& outline, double h, double scale) {
+    return b.primitive("prism", {outline, h, false, scale});
+  };
+  const SceneNodeId plate = b.subtract({prism(frame, 1, 1), prism(slot, 1, 1), b.cylinder(1, 0.5)});
+  const SceneNodeId wheel =
+      b.subtract({prism(gear, 0.5, 1), b.cylinder(0.5, 0.25), b.translate({0, 0, 0.25}, prism(slot, 0.25, 1))});
+  // A turned outline, cut by the torus and the cylinder that its own arc and segment make.
+  const SceneNodeId vase = b.subtract(
+      {b.primitive("revolution", {Outline{{{{0, 0, 0}, {1, 0, 0}, {1, 0.5, -0.5}, {0.75, 1.5, 0}, {0, 1.5, 0}}}}}),
+       b.translate({0, 0, 0.5}, b.torus(1, 0.25)), b.cylinder(1.5, 0.75)});
+  return b.tree(b.unite({plate, b.translate({0, -2.5, 0}, vase), b.translate({0, 0, 1}, prism(slot, 1, 0.5)),
+                         b.translate({0, 2.5, 0}, b.rotate({30, 0, 0}, wheel))}));
+}
+
 inline CsgTree lattice_scene(std::uint64_t seed, const Vec3& degrees) {
   SceneBuilder b;
   return b.tree(b.rotate(degrees, lattice_node(b, seed)));
@@ -152,7 +176,7 @@ inline CsgTree room_scene() {
 }
 
 inline constexpr Scene scenes[] = {
-    {"random_8", [] { return random_scene(1, 8, 0.8); }},
+    {"random_8", [] { return random_scene(21, 8, 0.8); }},
     {"random_24", [] { return random_scene(2, 24, 1.5); }},
     {"random_60", [] { return random_scene(3, 60, 3); }},
     {"lattice", [] { return lattice_scene(4, {}); }},
@@ -164,7 +188,7 @@ inline constexpr Scene scenes[] = {
     {"deep", deep_scene},
     {"flat", flat_scene},
     {"tiny", [] { return sized_scene(6, 1e-9, {}); }},
-    {"huge", [] { return sized_scene(7, 1e9, {}); }},
+    {"huge", [] { return sized_scene(17, 1e9, {}); }},
     {"far_away",
      [] {
        return sized_scene(8, 1, {1e5, -3e5, 2e5});
@@ -175,6 +199,7 @@ inline constexpr Scene scenes[] = {
     {"media", [] { return media_scene(9, false); }},
     {"media_lattice", [] { return media_scene(10, true); }},
     {"room", room_scene},
+    {"outlines", outlines_scene},
     {"one",
      [] {
        SceneBuilder b;

@@ -3,6 +3,7 @@
 #include <random>
 #include <vector>
 
+#include "support/random_outline.h"
 #include "support/scene_builder.h"
 
 namespace tenon::fixtures {
@@ -36,6 +37,10 @@ inline FieldValue random_value(Draw& draw, const FieldInfo& field) {
   if (std::holds_alternative<bool>(field.fallback)) return draw.one_in(2);
   if (std::holds_alternative<Vec3>(field.fallback)) return draw.vector(draw.one_in(2) ? -1.0 : 0.3, 1.5);
   if (std::holds_alternative<double>(field.fallback)) return draw.real(0.2, 1.2);
+  if (std::holds_alternative<Outline>(field.fallback)) {
+    Random random(static_cast<std::uint64_t>(draw.below(1 << 30)));
+    return RandomOutline(random, 0.7).draw();
+  }
   // A box with its corners cut, which is bounded whatever the cuts.
   std::vector<Plane> planes{{{1, 0, 0}, 1},  {{-1, 0, 0}, 1}, {{0, 1, 0}, 1},
                             {{0, -1, 0}, 1}, {{0, 0, 1}, 1},  {{0, 0, -1}, 1}};

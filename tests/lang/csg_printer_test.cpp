@@ -14,6 +14,8 @@ TEST(PrintCsg, ReadsBackToTheSameText) {
       "difference() {"
       "  rotate([10, 20, 30]) cube([1, 2, 3] / 7, center = true); color(\"tomato\") sphere(r = sqrt(2));"
       "  cylinder(h = 1e-9, r = 1e300); cylinder(h = 1, r1 = 2, r2 = 0); torus(); hyperboloid(h = 3, r = 2, waist = 1);"
+      "  prism([[[0, 0], [1 / 3, 0, 1 / 7], [0, 1]], [[2, 0, 1], [3, 0, 1]]], h = 2, scale = 0.5);"
+      "  revolution([[[1, 0], [2, 0, 0.1], [1, 1]]]);"
       "  paraboloid(); intersection() { halfspace([1, 2, 3], 0.1); complement() sphere(9, $fn = 5); }"
       "}");
   EXPECT_EQ(text.find("error"), std::string::npos) << text;

@@ -131,6 +131,13 @@ inline std::string describe(const std::vector<FieldValue>& values) {
         text << "\n  {{" << p.normal.x << ", " << p.normal.y << ", " << p.normal.z << "}, " << p.d << '}';
       }
     }
+    if (const auto* outline = std::get_if<Outline>(&value)) {
+      for (const auto& loop : outline->loops) {
+        text << "\n  {";
+        for (const OutlineCorner& c : loop) text << '{' << c.x << ", " << c.y << ", " << c.bulge << "}, ";
+        text << '}';
+      }
+    }
   }
   return text.str();
 }

@@ -88,6 +88,73 @@ struct Definitions {
       f.push_back(dot(Vec<T>(plane.normal), p) - T(plane.d));
   }
 
+  // q of an edge of an outline: zero on its line or circle, growing to the right.
+  static T edge_value(const OutlineCorner& a, const OutlineCorner& b, T x, T y) {
+    const T wx = T(b.x) - a.x, wy = T(b.y) - a.y, px = x - a.x, py = y - a.y, bulge = a.bulge;
+    return bulge * (px * (px - wx) + py * (py - wy)) - (1 - bulge * bulge) / 2 * (wx * py - wy * px);
+  }
+  // For every edge two faces: the outline on its left, and on its right.
+  static void outline_faces(const Outline& outline, T x, T y, T factor, Faces<T>& f) {
+    for (const auto& loop : outline.loops) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const T q = factor * edge_value(loop[i], loop[(i + 1) % loop.size()], x, y);
+        f.push_back(q);
+        f.push_back(-q);
+      }
+    }
+  }
+  // By the even-odd rule: how often the way along +x meets the loops. Arcs are met by way of their centres.
+  static bool outline_contains(const Outline& outline, T x, T y) {
+    bool inside = false;
+    for (const auto& loop : outline.loops) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const OutlineCorner &a = loop[i], &b = loop[(i + 1) % loop.size()];
+        const T wx = T(b.x) - a.x, wy = T(b.y) - a.y;
+        if (a.bulge == 0) {
+          if ((T(a.y) <= y) != (T(b.y) <= y)) inside ^= x < a.x + (y - a.y) * wx / wy;
+          continue;
+        }
+        const T bulge = a.bulge, k = (1 - bulge * bulge) / (4 * bulge);
+        const T cx = (T(a.x) + b.x) / 2 - k * wy, cy = (T(a.y) + b.y) / 2 + k * wx;
+        const T square = (wx * wx + wy * wy) * (1 + bulge * bulge) * (1 + bulge * bulge) / (16 * bulge * bulge);
+        const T left = square - (y - cy) * (y - cy);
+        if (!(left > 0)) continue;
+        for (const int sign : {-1, 1}) {
+          const T at = cx + sign * exact::square_root(left);
+          const T side = wx * (y - a.y) - wy * (at - a.x);
+          inside ^= (a.bulge > 0 ? side <= 0 : side > 0) && x < at;
+        }
+      }
+    }
+    return inside;
+  }
+  static T prism_scale(const Values& v, T z) {
+    const T h = number(v, 1), low = flag(v, 2) ? -h / 2 : T(0);
+    return 1 + (T(number(v, 3)) - 1) * (z - low) / h;
+  }
+  static void prism(const Values& v, const Vec<T>& p, Faces<T>& f) {
+    const T h = number(v, 1), s = prism_scale(v, p.z);
+    between(f, flag(v, 2) ? p.z + h / 2 : p.z, T(0), h);
+    if (s != 0) outline_faces(std::get<Outline>(v[0]), p.x / s, p.y / s, s, f);
+  }
+  static bool is_in_prism(const Values& v, const Vec<T>& p) {
+    const T h = number(v, 1), z = flag(v, 2) ? p.z + h / 2 : p.z, s = prism_scale(v, p.z);
+    return z >= 0 && z <= h && s > 0 && outline_contains(std::get<Outline>(v[0]), p.x / s, p.y / s);
+  }
+
+  static void revolution(const Values& v, const Vec<T>& p, Faces<T>& f) {
+    outline_faces(std::get<Outline>(v[0]), exact::square_root(across(p)), p.z, T(1), f);
+  }
+  static bool is_in_revolution(const Values& v, const Vec<T>& p) {
+    return outline_contains(std::get<Outline>(v[0]), exact::square_root(across(p)), p.z);
+  }
+
+  /// Whether a point is inside, for kinds whose faces do not all bound it everywhere; null for the others.
+  using Membership = bool (*)(const Values&, const Vec<T>&);
+  static Membership find_membership(std::string_view kind) {
+    return kind == "prism" ? is_in_prism : kind == "revolution" ? is_in_revolution : nullptr;
+  }
+
   static Definition find(std::string_view kind) {
     static const std::map<std::string_view, Definition> all{
         {"sphere", sphere},
@@ -99,6 +166,8 @@ struct Definitions {
         {"paraboloid", paraboloid},
         {"halfspace", halfspace},
         {"convex_polyhedron", convex_polyhedron},
+        {"prism", prism},
+        {"revolution", revolution},
     };
     const auto found = all.find(kind);
     return found == all.end() ? nullptr : found->second;
@@ -110,7 +179,9 @@ template <class T>
 class Solid {
  public:
   Solid(std::string_view kind, std::vector<FieldValue> values)
-      : define_(Definitions<T>::find(kind)), values_(std::move(values)) {}
+      : define_(Definitions<T>::find(kind)),
+        is_inside_(Definitions<T>::find_membership(kind)),
+        values_(std::move(values)) {}
 
   bool is_defined() const { return define_ != nullptr; }
   /// All face functions at a point.
@@ -120,6 +191,7 @@ class Solid {
     return faces_;
   }
   bool contains(const Vec<T>& p) const {
+    if (is_inside_ != nullptr) return is_inside_(values_, p);
     for (const T& f : faces(p)) {
       if (f > 0) return false;
     }
@@ -136,6 +208,7 @@ class Solid {
 
  private:
   typename Definitions<T>::Definition define_;
+  typename Definitions<T>::Membership is_inside_;
   std::vector<FieldValue> values_;
   mutable Faces<T> faces_;
 };

@@ -8,7 +8,7 @@
 
 #include "primitive/dispatch.h"
 #include "primitive/oracle.h"
-#include "support/random.h"
+#include "support/random_outline.h"
 
 namespace tenon {
 
@@ -47,7 +47,10 @@ class RandomValues {
   }
 
  private:
-  double like(double) { return length() * (random_.chance(0.05) ? -1 : 1) * (random_.chance(0.05) ? 0 : 1); }
+  double like(double) {
+    if (unit_ == Unit::none) return random_.chance(0.5) ? 1 : random_.chance(0.1) ? 0 : random_.uniform(0, 2);
+    return length() * (random_.chance(0.05) ? -1 : 1) * (random_.chance(0.05) ? 0 : 1);
+  }
   bool like(bool) { return random_.chance(0.5); }
   Vec3 like(const Vec3&) {
     if (unit_ == Unit::length) return {length(), length(), length()};
@@ -69,6 +72,7 @@ class RandomValues {
     for (int i = random_.below(6); i > 0; --i) add(random_.magnitude(-1, 1) * random_.direction(), length());
     return planes;
   }
+  Outline like(const Outline&) { return RandomOutline(random_, length()).draw(); }
   double length() { return random_.chance(0.1) ? random_.magnitude(-3, 3) : scale_ * random_.magnitude(-0.7, 0.7); }
 
   Random& random_;

@@ -165,6 +165,81 @@ TEST(SpecialRays, TouchingATorus) {
   expect_nothing(cross("torus", {1.0, 1.0}, {0, 0, -3}, {0, 0, 1}));
 }
 
+// A slot: its arcs leave its segments smoothly.
+const Outline slot{{{{-1, -0.5, 0}, {1, -0.5, 1}, {1, 0.5, 0}, {-1, 0.5, 1}}}};
+
+TEST(SpecialRays, ThroughTheSeamsOfSegmentsAndArcs) {
+  const std::vector<FieldValue> prism{slot, 2.0, false, 1.0};
+  expect_chord(cross("prism", prism, {1, -3, 1}, {0, 1, 0}), 2.5, 3.5);
+  expect_chord(cross("prism", prism, {-1, 3, 1}, {0, -1, 0}), 2.5, 3.5);
+  expect_chord(cross("prism", prism, {-3, 0, 1}, {1, 0, 0}), 1.5, 4.5);
+  expect_chord(cross("prism", prism, {0, -1.5, 1}, {1, 1, 0}), 1, 1.5);
+  expect_nothing(cross("prism", prism, {1.5, -3, 1}, {0, 1, 0}));
+}
+
+TEST(SpecialRays, InAWallOfAPrismAreInside) {
+  const std::vector<FieldValue> square{Outline{{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}}, 1.0, false, 1.0};
+  expect_chord(cross("prism", square, {-1, 0, 0.5}, {1, 0, 0}), 1, 2);
+  expect_chord(cross("prism", square, {-1, 1, 0.5}, {1, 0, 0}), 1, 2);
+  expect_chord(cross("prism", square, {0, 0, -1}, {0, 0, 1}), 1, 2);    // in an edge
+  expect_chord(cross("prism", square, {0.5, 0, -1}, {0, 0, 1}), 1, 2);  // in a wall, upwards
+  expect_chord(cross("prism", square, {-1, -1, -1}, {1, 1, 1}), 1, 2);
+  expect_nothing(cross("prism", square, {-1, 1, 0.5}, {1, -1, 0}));  // touches an edge
+  EXPECT_TRUE(cross("prism", square, {-1, 1.001, 0.5}, {1, 0, 0}).empty());
+  // From a wall, across and along it.
+  expect_chord(cross("prism", square, {0.5, 0, 0.5}, {0, 1, 0}, 2), 0, 1);
+  expect_chord(cross("prism", square, {0.5, 0, 0.5}, {1, 0, 0}, 2), -0.5, 0.5);
+}
+
+TEST(SpecialRays, ThroughHolesTipsAndLoopsThatCross) {
+  const Outline ring{{{{2, 0, 1}, {-2, 0, 1}}, {{1, 0, 1}, {-1, 0, 1}}}};
+  Spans four = cross("prism", {ring, 1.0, false, 1.0}, {-3, 0, 0.5}, {1, 0, 0});
+  ASSERT_EQ(four.size(), 4u) << describe(four);
+  EXPECT_NEAR(four[1].t, 2, four[1].bound);
+  EXPECT_NEAR(four[2].t, 4, four[2].bound);
+  EXPECT_TRUE(cross("prism", {ring, 1.0, false, 1.0}, {0.5, 0, -1}, {0, 0, 1}).empty());
+  expect_chord(cross("prism", {ring, 1.0, false, 1.0}, {1.5, 0, -1}, {0, 0, 1}), 1, 2);
+  // A pyramid: through its tip, and past it.
+  const Outline square{{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}}};
+  expect_chord_and_touches(cross("prism", {square, 1.0, false, 0.0}, {0, 0, -1}, {0, 0, 1}), 1, 2);
+  expect_chord(cross("prism", {square, 1.0, false, 0.0}, {-2, 0, 0.5}, {1, 0, 0}), 1.5, 2.5);
+  expect_nothing(cross("prism", {square, 1.0, false, 0.0}, {-1, 0, 1}, {1, 0, 0}));
+  // A bow: what is enclosed twice is outside, and both halves have their normals outward.
+  const Outline bow{{{{-1, -1, 0}, {1, 1, 0}, {1, -1, 0}, {-1, 1, 0}}}};
+  Spans halves = cross("prism", {bow, 1.0, false, 1.0}, {-2, 0.25, 0.5}, {1, 0, 0});
+  ASSERT_EQ(halves.size(), 4u) << describe(halves);
+  EXPECT_NEAR(halves[1].t, 1.75, halves[1].bound);
+  EXPECT_NEAR(halves[2].t, 2.25, halves[2].bound);
+}
+
+TEST(SpecialRays, OfATurnedCircleAreThoseOfATorus) {
+  const std::vector<FieldValue> ring{Outline{{{{2, -0.5, 1}, {2, 0.5, 1}}}}};
+  expect_nothing(cross("revolution", ring, {-5, 0, 0.5}, {1, 0, 0}));     // through both seams, touching
+  expect_nothing(cross("revolution", ring, {2.5, -5, 0}, {0, 1, 0}));     // touches the equator
+  EXPECT_TRUE(cross("revolution", ring, {0, 0, -5}, {0, 0, 1}).empty());  // through the hole
+  const Spans four = cross("revolution", ring, {-5, 0, 0}, {1, 0, 0});
+  ASSERT_EQ(four.size(), 4u);
+  EXPECT_NEAR(four[0].t, 2.5, four[0].bound);
+  EXPECT_NEAR(four[1].t, 3.5, four[1].bound);
+  EXPECT_NEAR(four[2].t, 6.5, four[2].bound);
+  EXPECT_NEAR(four[3].t, 7.5, four[3].bound);
+  expect_chord(cross("revolution", ring, {2, 0, -3}, {0, 0, 1}), 2.5, 3.5);  // along the seams
+}
+
+TEST(SpecialRays, OfATurnedPolygonThroughItsAxisRimsAndTip) {
+  // A cylinder of radius 1 and height 1 with a cone on it.
+  const std::vector<FieldValue> pen{Outline{{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 2, 0}}}}};
+  expect_chord_and_touches(cross("revolution", pen, {0, 0, -1}, {0, 0, 1}), 1, 3);
+  expect_chord(cross("revolution", pen, {0.5, 0, -1}, {0, 0, 1}), 1, 2.5);
+  expect_chord(cross("revolution", pen, {-2, 0, 0.5}, {1, 0, 0}), 1, 3);
+  expect_chord(cross("revolution", pen, {-2, 0, 1}, {1, 0, 0}), 1, 3);  // through the rim
+  expect_nothing(cross("revolution", pen, {-2, 0, 2}, {1, 0, 0}));      // touches the tip
+  expect_nothing(cross("revolution", pen, {-2, 1, 0.5}, {1, 0, 0}));    // touches the side
+  expect_chord(cross("revolution", pen, {-2, 0, 0}, {1, 0, 0}), 1, 3);  // in the bottom
+  expect_chord(cross("revolution", pen, {0.5, 0, 0}, {0, 0, 1}, 0), 0, 1.5);
+  expect_chord(cross("revolution", pen, {1, 0, 0.5}, {-1, 0, 0}, 2), 0, 2);
+}
+
 TEST(SpecialRays, HalfSpacesCrossAtInfinity) {
   const double inf = std::numeric_limits<double>::infinity();
   const std::vector<FieldValue> below{Vec3{0, 0, 2}, 2.0};
@@ -189,9 +264,11 @@ TEST(Bounds, AreAsSmallAsConditioningAllows) {
     std::string_view kind;
     std::vector<FieldValue> values;
   };
-  for (const Case& c : {Case{"sphere", {1.0}}, Case{"cube", {Vec3{2, 2, 2}, true}}, Case{"cylinder", {2.0, 1.0, true}},
-                        Case{"cone", {2.0, 1.0, 0.5, true}}, Case{"torus", {0.75, 0.25}},
-                        Case{"hyperboloid", {2.0, 1.0, 0.5}}, Case{"paraboloid", {1.0, 1.0}}}) {
+  for (const Case& c :
+       {Case{"sphere", {1.0}}, Case{"cube", {Vec3{2, 2, 2}, true}}, Case{"cylinder", {2.0, 1.0, true}},
+        Case{"cone", {2.0, 1.0, 0.5, true}}, Case{"torus", {0.75, 0.25}}, Case{"hyperboloid", {2.0, 1.0, 0.5}},
+        Case{"paraboloid", {1.0, 1.0}}, Case{"prism", {slot, 1.0, true, 0.5}},
+        Case{"revolution", {Outline{{{{0.75, -0.25, 1}, {0.75, 0.25, 1}}}}}}}) {
     Random random(11);
     PrimitiveStore store;
     const PrimitiveId id = *store.add(*PrimitiveStore::find_kind(c.kind), c.values);
@@ -214,8 +291,9 @@ TEST(Bounds, AreAsSmallAsConditioningAllows) {
     }
     RecordProperty(std::string(c.kind) + "_mean", std::to_string(sum / count));
     RecordProperty(std::string(c.kind) + "_worst", std::to_string(worst));
-    EXPECT_LT(sum / count, c.kind == "torus" ? 40 : 20) << c.kind;
-    EXPECT_LT(worst, c.kind == "torus" ? 200 : 100) << c.kind;
+    const bool simple = c.kind != "torus" && c.kind != "prism" && c.kind != "revolution";
+    EXPECT_LT(sum / count, simple ? 20 : c.kind == "revolution" ? 80 : 40) << c.kind;
+    EXPECT_LT(worst, simple ? 100 : c.kind == "torus" ? 200 : 400) << c.kind;
     std::printf("[ bounds  ] %-12s mean %5.1f u, worst %5.1f u\n", c.kind.data(), sum / count, worst);
   }
 }

@@ -77,6 +77,33 @@ TEST(PrimitiveStore, SizesThatMakeNoSolidAreRefusedWithTheReason) {
   EXPECT_NE(problem("sphere", {1.0, 1.0}), "");
 }
 
+TEST(PrimitiveStore, OutlinesThatEncloseNothingAreRefused) {
+  const auto prism = [](std::vector<std::vector<OutlineCorner>> loops) {
+    return problem("prism", {Outline{std::move(loops)}, 1.0, false, 1.0});
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(prism({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}), "");
+  EXPECT_EQ(prism({{{0, 0, 1}, {1, 0, 1}}}), "");
+  EXPECT_EQ(prism({}), "prism with an outline of no corners has no volume");
+  EXPECT_EQ(prism({{{1, 2, 0}}}), "an outline of prism needs at least two corners in each loop");
+  EXPECT_EQ(prism({{{1, 2, 0}, {1, 2, 0}, {1, 2, 0}}}), "prism with an outline of one point has no volume");
+  EXPECT_EQ(prism({{{0, 0, 0}, {1, nan, 0}, {0, 1, 0}}}), "corner 1 of the outline of prism is not finite");
+  EXPECT_EQ(prism({{{0, 0, 2000}, {1, 0, 0}}}),
+            "corner 0 of the outline of prism has a bulge beyond 1000, an arc that is all but a full circle");
+}
+
+TEST(PrimitiveStore, OutlinesBeyondTheAxisAreRefused) {
+  const auto revolution = [](std::vector<OutlineCorner> loop) {
+    return problem("revolution", {Outline{{std::move(loop)}}});
+  };
+  EXPECT_EQ(revolution({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), "");
+  EXPECT_EQ(revolution({{0, -1, 1}, {0, 1, 0}}), "");
+  EXPECT_EQ(revolution({{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}}),
+            "revolution has an outline that reaches over the axis; keep the distances at least 0");
+  EXPECT_EQ(revolution({{0, 0, 0}, {0, 1, 0}, {0, 2, 0}}),
+            "revolution has an outline without distance from the axis, and no volume");
+}
+
 TEST(PrimitiveStore, PlanesThatEncloseNothingAreRefused) {
   const auto polyhedron = [](std::vector<Plane> planes) { return problem("convex_polyhedron", {std::move(planes)}); };
   std::vector<Plane> cube{{{-1, 0, 0}, 0}, {{1, 0, 0}, 1},  {{0, -1, 0}, 0},

@@ -11,6 +11,7 @@
 #include "tenon/base/error.h"
 #include "tenon/base/id.h"
 #include "tenon/math/vec3.h"
+#include "tenon/primitive/outline.h"
 
 namespace tenon {
 
@@ -27,7 +28,7 @@ struct Plane {
 };
 
 /// The value of one field of a primitive.
-using FieldValue = std::variant<double, bool, Vec3, std::vector<Plane>>;
+using FieldValue = std::variant<double, bool, Vec3, std::vector<Plane>, Outline>;
 
 /// One parameter of a primitive: parser, printer and documentation derive from it.
 struct FieldInfo {

@@ -1,0 +1,44 @@
+#include "lang/primitive_arguments.h"
+
+#include "lang/format.h"
+
+namespace tenon::lang {
+
+Solid make_primitive(ModuleCall& call, std::string_view kind, const std::vector<FieldValue>& values) {
+  ModuleEvaluator& evaluator = call.evaluator;
+  // OpenSCAD drops them in silence; mostly a semicolon is missing, and with it a part of the solid.
+  if (!call.instantiation.children->instantiations.empty()) {
+    const Instantiation& dropped = *call.instantiation.children->instantiations.front();
+    const std::string name = evaluator.environment().text(call.instantiation.name);
+    evaluator.environment().warn(
+        dropped.at, name + "() has no children; what stands here is dropped (is a ';' missing after " + name + "()?)");
+  }
+  const Result<PrimitiveId> made =
+      evaluator.builder().model().graph.primitives.add(*PrimitiveStore::find_kind(kind), values);
+  if (made) return evaluator.builder().leaf(*made);
+  evaluator.environment().warn(call.at(), made.error().message);
+  return Solid::nothing();
+}
+
+std::optional<double> number_argument(ModuleCall& call, const ModuleArguments& arguments, std::size_t index,
+                                      std::string_view name) {
+  if (!arguments.given(index)) return std::nullopt;
+  if (const double* number = arguments[index].number()) return *number;
+  Environment& environment = call.evaluator.environment();
+  environment.warn(arguments.at(index), "'" + std::string(name) + "' must be a number, not " +
+                                            format_value(arguments[index], environment.symbols) + "; it is ignored");
+  return std::nullopt;
+}
+
+std::optional<double> radius_argument(ModuleCall& call, const ModuleArguments& arguments, std::size_t r, std::size_t d,
+                                      std::string_view name) {
+  const auto diameter = number_argument(call, arguments, d, "d" + std::string(name.substr(1)));
+  const auto radius = number_argument(call, arguments, r, name);
+  if (diameter && radius) {
+    call.evaluator.environment().warn(arguments.at(r),
+                                      "'" + std::string(name) + "' is ignored where the diameter is given too");
+  }
+  return diameter ? std::optional(*diameter / 2) : radius;
+}
+
+}  // namespace tenon::lang

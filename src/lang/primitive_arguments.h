@@ -1,0 +1,19 @@
+#pragma once
+
+#include "lang/module_arguments.h"
+
+namespace tenon::lang {
+
+/// A primitive, or a warning and nothing where its size makes none.
+Solid make_primitive(ModuleCall& call, std::string_view kind, const std::vector<FieldValue>& values);
+
+/// The number given for a parameter. As in OpenSCAD, what is no number is as if it had not been given, but not
+/// silently.
+std::optional<double> number_argument(ModuleCall& call, const ModuleArguments& arguments, std::size_t index,
+                                      std::string_view name);
+
+/// A radius, or half of a diameter; the diameter goes first.
+std::optional<double> radius_argument(ModuleCall& call, const ModuleArguments& arguments, std::size_t r, std::size_t d,
+                                      std::string_view name);
+
+}  // namespace tenon::lang

@@ -1,0 +1,242 @@
+#include "lang/turned_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "csg/tolerance.h"
+#include "primitive/outline_edges.h"
+
+namespace tenon::lang {
+
+namespace {
+
+using Loop = std::vector<OutlineCorner>;
+
+Outline outline_of(const PrimitiveStore& store, PrimitiveId id) {
+  const std::string_view kind = store.kind(id).name;
+  const std::vector<FieldValue> values = store.values(id);
+  if (kind == "cylinder") {
+    const double r = std::get<double>(values[1]);
+    return {{{{0, -r, 1}, {0, r, 1}}}};
+  }
+  if (kind == "cube") {
+    const Vec3 size = std::get<Vec3>(values[0]);
+    return {{{{0, 0, 0}, {size.x, 0, 0}, {size.x, size.y, 0}, {0, size.y, 0}}}};
+  }
+  return std::get<Outline>(values[0]);
+}
+
+bool has_arcs(const Outline& outline) {
+  return std::any_of(outline.loops.begin(), outline.loops.end(), [](const Loop& loop) {
+    return std::any_of(loop.begin(), loop.end(), [](const OutlineCorner& c) { return c.bulge != 0; });
+  });
+}
+
+// Whether a map of the plane keeps circles round, but for what counts as one place.
+bool keeps_circles(const Affine3& map) {
+  const Vec3 a = map.column(0), b = map.column(1);
+  const double size = dot(a, a) + dot(b, b);
+  return std::fabs(dot(a, a) - dot(b, b)) <= Tolerance::relative * size &&
+         std::fabs(dot(a, b)) <= Tolerance::relative * size;
+}
+
+Outline mapped(const Outline& outline, const Affine3& map) {
+  const bool mirrors = map.m[0][0] * map.m[1][1] - map.m[0][1] * map.m[1][0] < 0;
+  Outline result = outline;
+  for (Loop& loop : result.loops) {
+    for (OutlineCorner& c : loop) {
+      const Vec3 p = map.point({c.x, c.y, 0});
+      c = {p.x, p.y, mirrors ? -c.bulge : c.bulge};
+    }
+  }
+  return result;
+}
+
+/// Cuts off what lies left of the axis: each loop runs along the axis there instead.
+class AxisCut {
+ public:
+  explicit AxisCut(double same_place) : same_place_(same_place) {}
+
+  Loop cut(const Loop& loop) {
+    kept_.clear();
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const OutlineCorner &a = loop[i], &b = loop[(i + 1) % loop.size()];
+      a.bulge == 0 ? cut_segment(snapped({a.x, a.y}), snapped({b.x, b.y})) : cut_arc({a.x, a.y}, {b.x, b.y}, a.bulge);
+    }
+    return std::move(kept_);
+  }
+
+ private:
+  // What counts as a point of the axis is one.
+  Vec2 snapped(const Vec2& p) const { return {std::fabs(p.x) <= same_place_ ? 0 : p.x, p.y}; }
+
+  // A kept edge from a to b; its end is the beginning of the next one, or of a way along the axis.
+  void keep(const Vec2& a, const Vec2& b, double bulge) {
+    if (!kept_.empty() && kept_.back().x == a.x && kept_.back().y == a.y) kept_.pop_back();
+    kept_.push_back({a.x, a.y, bulge});
+    kept_.push_back({b.x, b.y, 0});
+  }
+
+  void cut_segment(const Vec2& a, const Vec2& b) {
+    if (a.x < 0 && b.x < 0) return;
+    const auto on_axis = [&] { return Vec2{0, a.y + (b.y - a.y) * (a.x / (a.x - b.x))}; };
+    keep(a.x < 0 ? on_axis() : a, b.x < 0 ? on_axis() : b, 0);
+  }
+
+  void cut_arc(const Vec2& from, const Vec2& to, double bulge) {
+    const Vec2 w = to - from;
+    const double k = (1 - bulge) * (1 + bulge) / (4 * bulge);
+    const Vec2 c = 0.5 * (from + to) + k * Vec2{-w.y, w.x};
+    const double r = length(w) * (1 + bulge * bulge) / (4 * std::fabs(bulge));
+    // The arc's points on the axis, in its order: by the bulge of the part up to them, which grows along it.
+    std::vector<std::pair<double, Vec2>> stops{{0, from}};
+    const double square = (r - c.x) * (r + c.x);
+    for (const double sign : {-1.0, 1.0}) {
+      if (!(square > 0)) continue;
+      const Vec2 p{0, c.y + sign * std::sqrt(square)};
+      if (length(p - from) <= same_place_ || length(p - to) <= same_place_) continue;
+      const double part = bulge_between(from, p, c, r, bulge);
+      if (std::fabs(part) < std::fabs(bulge)) stops.emplace_back(std::fabs(part), p);
+    }
+    std::sort(stops.begin(), stops.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    stops.emplace_back(std::fabs(bulge), to);
+    for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+      const Vec2 a = stops[i].second, b = stops[i + 1].second;
+      const double part = stops.size() == 2 ? bulge : bulge_between(a, b, c, r, bulge);
+      // The middle of the part tells on which side of the axis it lies.
+      const Vec2 chord = b - a, middle = 0.5 * (a + b) + 0.5 * part * Vec2{chord.y, -chord.x};
+      if (middle.x > 0) keep(snapped(a), snapped(b), part);
+    }
+  }
+
+  // tan(θ/4) = sin(θ/2) / (1 + cos(θ/2)), of the arc from a to b that turns as `like` does.
+  static double bulge_between(const Vec2& a, const Vec2& b, const Vec2& c, double r, double like) {
+    const Vec2 chord = b - a;
+    const double l = length(chord), sine = l / (2 * r);
+    const double cosine = cross(chord, c - a) / (l * r) * (like > 0 ? 1 : -1);
+    return std::copysign(sine / (1 + cosine), like);
+  }
+
+  double same_place_;
+  Loop kept_;
+};
+
+/// Rebuilds a flat shape as a solid of revolution, operation by operation.
+class Turner {
+ public:
+  Turner(ModuleEvaluator& evaluator, Place at) : evaluator_(evaluator), at_(at) {}
+
+  /// @param map  of the shape into the plane of the axis
+  Solid rebuild(SceneNodeId id, const Affine3& map, bool may_cross_axis) {
+    evaluator_.expressions().check_depth(at_);
+    SceneBuilder& builder = evaluator_.builder();
+    const SceneNode node = builder.model().graph[id];
+    if (const auto* leaf = std::get_if<PrimitiveLeaf>(&node.content)) {
+      return turn(outline_of(builder.model().graph.primitives, leaf->primitive), map, may_cross_axis);
+    }
+    const auto* operation = std::get_if<SetOperation>(&node.content);
+    const auto* transform = std::get_if<Transform>(&node.content);
+    const bool cuts = operation && *operation != SetOperation::union_;
+    Solids parts;
+    for (const SceneNodeId child : node.children) {
+      parts.push_back(rebuild(child, transform ? map * transform->parent_from_child : map, may_cross_axis || cuts));
+    }
+    if (const auto* color = std::get_if<ColorAttribute>(&node.content)) return builder.wrap(*color, parts);
+    if (const auto* material = std::get_if<MaterialAttribute>(&node.content)) return builder.wrap(*material, parts);
+    if (!operation || *operation == SetOperation::union_) return builder.unite(parts);
+    return *operation == SetOperation::intersection ? builder.intersect(parts) : builder.subtract(parts);
+  }
+
+  /// The largest |x| of the shape's parts, and whether any lies right of the axis.
+  void survey(SceneNodeId id, const Affine3& map) {
+    const SceneGraph& graph = evaluator_.builder().model().graph;
+    const SceneNode& node = graph[id];
+    if (const auto* leaf = std::get_if<PrimitiveLeaf>(&node.content)) {
+      for (const Vec3& sign : {Vec3{1, 1, 0}, Vec3{-1, 1, 0}}) {
+        const OutlineEdges edges(outline_of(graph.primitives, leaf->primitive));
+        const Vec2 n{sign.x * map.m[0][0], sign.x * map.m[0][1]};
+        const double x = edges.support(n) + sign.x * map.m[0][3];
+        (sign.x > 0 ? right_ : left_) = std::max(sign.x > 0 ? right_ : left_, x);
+        const Vec2 up{sign.x * map.m[1][0], sign.x * map.m[1][1]};
+        high_ = std::max(high_, edges.support(up) + sign.x * map.m[1][3]);
+      }
+      return;
+    }
+    const auto* transform = std::get_if<Transform>(&node.content);
+    for (const SceneNodeId child : node.children) survey(child, transform ? map * transform->parent_from_child : map);
+  }
+
+  /// The largest |x| on each side of the axis, and |y|.
+  double right() const { return right_; }
+  double left() const { return left_; }
+  double high() const { return high_; }
+  double same_place() const { return Tolerance::relative * (std::max(right_, left_) + high_); }
+
+ private:
+  Solid turn(const Outline& outline, const Affine3& map, bool may_cross_axis) {
+    if (!has_arcs(outline) || keeps_circles(map)) return turn(mapped(outline, map), may_cross_axis);
+    if (map.m[0][1] != 0 || map.m[1][0] != 0) {
+      fail(at_, "rotate_extrude() of an ellipse whose axes are turned is not supported yet; scale along x and y alone");
+    }
+    // What is stretched along the axis, or evenly across it, may be stretched after it is turned.
+    const double across = std::fabs(map.m[0][0]), along = std::fabs(map.m[1][1]);
+    const Affine3 inner = Affine3::scale({1 / across, 1 / along, 1}) * map;
+    const Solid round = turn(mapped(outline, inner), may_cross_axis);
+    return evaluator_.builder().wrap(Transform{Affine3::scale({across, across, along})}, {round});
+  }
+
+  Solid turn(Outline outline, bool may_cross_axis) {
+    const OutlineEdges edges(outline);
+    if (edges.lower().x < 0) {
+      if (edges.lower().x < -same_place() && !may_cross_axis && !warned_) {
+        evaluator_.environment().warn(at_,
+                                      "rotate_extrude() has a shape on both sides of the axis; what lies left of it is "
+                                      "cut off");
+        warned_ = true;
+      }
+      AxisCut cut(same_place());
+      for (Loop& loop : outline.loops) loop = cut.cut(loop);
+      std::erase_if(outline.loops, [](const Loop& loop) { return loop.size() < 2; });
+      if (outline.loops.empty()) return Solid::nothing();
+    }
+    SceneBuilder& builder = evaluator_.builder();
+    const Result<PrimitiveId> made = builder.model().graph.primitives.add(*PrimitiveStore::find_kind("revolution"),
+                                                                          std::vector<FieldValue>{outline});
+    return made ? builder.leaf(*made) : Solid::nothing();
+  }
+
+  ModuleEvaluator& evaluator_;
+  Place at_;
+  double right_ = -HUGE_VAL, left_ = -HUGE_VAL, high_ = 0;
+  bool warned_ = false;
+};
+
+// A piece of cake around z that reaches beyond everything within `radius` and `height`.
+Solid wedge(ModuleEvaluator& evaluator, double degrees, double radius, double height) {
+  Loop loop{{0, 0, 0}};
+  const int steps = static_cast<int>(std::ceil(std::fabs(degrees) / 60));
+  for (int i = 0; i <= steps; ++i) {
+    const double angle = degrees * i / steps;
+    // Steps of at most 60 degrees keep their chords outside of half the distance.
+    loop.push_back({2 * radius * cos_degrees(angle), 2 * radius * sin_degrees(angle), 0});
+  }
+  SceneBuilder& builder = evaluator.builder();
+  return builder.leaf(*builder.model().graph.primitives.add(
+      *PrimitiveStore::find_kind("prism"), std::vector<FieldValue>{Outline{{loop}}, 4 * height, true, 1.0}));
+}
+
+}  // namespace
+
+Solid turned(ModuleEvaluator& evaluator, const Solid& shape, double degrees, Place at) {
+  Turner turner(evaluator, at);
+  turner.survey(shape.node, {});
+  const bool mirrored = turner.right() <= turner.same_place() && turner.left() > turner.same_place();
+  const Affine3 map = mirrored ? Affine3::scale({-1, 1, 1}) : Affine3();
+  const Solid round = turner.rebuild(shape.node, map, false);
+  if (std::fabs(degrees) >= 360 || round.is_nothing()) return round;
+  const double radius = std::max(turner.right(), turner.left()), height = turner.high() + radius;
+  const Solid part = evaluator.builder().intersect({round, wedge(evaluator, degrees, radius, height)});
+  return mirrored ? evaluator.builder().wrap(Transform{Affine3::rotate(180, {0, 0, 1})}, {part}) : part;
+}
+
+}  // namespace tenon::lang

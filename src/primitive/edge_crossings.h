@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "primitive/clip.h"
+#include "tenon/base/function_ref.h"
+
+namespace tenon {
+
+/// Where a line may cross an edge of a swept outline.
+struct EdgeCrossing : BoundedRoot {
+  std::uint32_t edge = 0;
+  bool rising = false;  ///< towards the side that the edge's normal points to
+  bool sure = false;    ///< the exact line crosses this edge, once, within the interval; else it may or may not
+  bool given = false;   ///< the face the ray starts on: at exactly t = 0
+};
+
+/// The part of a line that was searched for crossings.
+struct SearchedPart {
+  double begin = 0, end = 0;
+  bool outside_before = false, outside_after = false;  ///< known of the line right before and behind it
+};
+
+/// One crossing of the outline's boundary.
+struct BoundaryCrossing {
+  End end;
+  bool entering = false;
+};
+
+/// Finds which crossings of edges are crossings of the boundary of the region that the edges enclose by the even-odd
+/// rule.
+///
+/// The exact line crosses edges within the intervals of `crossings` alone, so between intervals it is certainly inside
+/// or outside. Where all crossings of a cluster of intervals are sure, their parity tells what lies behind it. Where
+/// one is not (the line passes a corner nearer than the errors), a point of the gap behind the cluster is looked up,
+/// and the cluster becomes one crossing, or a pair, with the whole cluster for an interval.
+///
+/// @param crossings  in any order; sorted here
+/// @param is_inside  whether the line is inside at t; asked in gaps only, where there are any
+/// @param found      the crossings in order, alternating
+/// @return whether the line is inside at the beginning of the part
+bool find_boundary_crossings(std::vector<EdgeCrossing>& crossings, const SearchedPart& part,
+                             FunctionRef<bool(double)> is_inside, std::vector<BoundaryCrossing>& found);
+
+/// The number of a face of a swept outline: its edge, and whether the solid lies on the side that the edge's normal
+/// points to. By the even-odd rule that may differ along one edge.
+inline std::uint32_t face_of_edge(std::uint32_t edge, bool rising, bool entering) {
+  return 2 * edge + (rising == entering ? 1U : 0U);
+}
+
+}  // namespace tenon

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <tuple>
+
+#include "primitive/concept.h"
+#include "primitive/edge_crossings.h"
+#include "primitive/outline_edges.h"
+
+namespace tenon {
+
+/// An outline turned around z: a point is inside when (its distance from z, z) lies in the outline.
+class Revolution {
+ public:
+  Outline outline{{{{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}}}};
+
+  static constexpr std::string_view name = "revolution", scad_name = "revolution";
+  static constexpr std::string_view doc = "An outline of segments and arcs, turned around z.";
+  static constexpr bool bounded = true;
+  static constexpr double relative_cost = 12;
+  static constexpr auto fields() {
+    return std::tuple{Field{"outline", Unit::length, &Revolution::outline,
+                            "closed loops of corners [distance from z, z] or [distance from z, z, bulge]"}};
+  }
+
+  void prepare() {
+    edges_ = OutlineEdges();
+    if (check_outline(name, outline).empty()) edges_ = OutlineEdges(outline);
+  }
+  std::string check() const;
+
+  double support(const Vec3& n) const { return edges_.support({std::sqrt(n.x * n.x + n.y * n.y), n.z}); }
+  /// Faces: two an edge (face_of_edge).
+  void spans(const LocalRay& ray, Spans& out) const;
+  Region classify(const LocalBox& box) const;
+  Vec3 normal(const Vec3& point, std::uint32_t face) const;
+
+ private:
+  class Line;
+  class Profile;
+  class DeflatedProfile;
+
+  OutlineEdges edges_;
+};
+
+}  // namespace tenon
