@@ -22,7 +22,7 @@ class Prism {
   static constexpr std::string_view name = "prism", scad_name = "prism";
   static constexpr std::string_view doc = "An outline of segments and arcs, swept along z.";
   static constexpr bool bounded = true;
-  static constexpr double relative_cost = 8;
+  static constexpr double relative_cost = 7;
   static constexpr auto fields() {
     return std::tuple{
         Field{"outline", Unit::length, &Prism::outline, "closed loops of corners [x, y] or [x, y, bulge]"},

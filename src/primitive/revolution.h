@@ -18,7 +18,7 @@ class Revolution {
   static constexpr std::string_view name = "revolution", scad_name = "revolution";
   static constexpr std::string_view doc = "An outline of segments and arcs, turned around z.";
   static constexpr bool bounded = true;
-  static constexpr double relative_cost = 12;
+  static constexpr double relative_cost = 17;
   static constexpr auto fields() {
     return std::tuple{Field{"outline", Unit::length, &Revolution::outline,
                             "closed loops of corners [distance from z, z] or [distance from z, z, bulge]"}};
