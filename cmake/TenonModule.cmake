@@ -18,7 +18,8 @@ endif()
 # One static library per folder of src/, made of every .cpp in it. USES names the folders it may include from.
 function(tenon_module name)
   cmake_parse_arguments(ARG "" "" "USES;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp
+       ${CMAKE_CURRENT_SOURCE_DIR}/*/*.cpp)
   if(sources)
     add_library(tenon_${name} STATIC ${sources})
     set(scope PUBLIC)

@@ -14,6 +14,7 @@ using Json = nlohmann::ordered_json;
 
 struct InfoCommand {
   SceneArguments scene;
+  std::string accel;
   bool json = false;
 
   Status run() const;
@@ -26,7 +27,14 @@ Json json_of(const Vec3& v) {
   return json;
 }
 
-std::string figures_json(const SceneFigures& figures) {
+/// What `--accel` asks for.
+struct StructureFigures {
+  std::string accel;
+  double build_seconds = 0;
+  AcceleratorFigures figures;
+};
+
+std::string figures_json(const SceneFigures& figures, const std::optional<StructureFigures>& structure) {
   Json json;
   json["primitives"] = figures.primitives;
   json["primitives_by_kind"] = Json::object();
@@ -39,6 +47,15 @@ std::string figures_json(const SceneFigures& figures) {
   json["tolerance"] = figures.tolerance;
   json["materials"] = figures.materials;
   json["lights"] = figures.lights;
+  if (structure) {
+    Json& one = json["structure"];
+    one["accel"] = structure->accel;
+    one["build_seconds"] = structure->build_seconds;
+    one["memory_bytes"] = structure->figures.memory_bytes;
+    one["boxes"] = structure->figures.boxes;
+    one["depth"] = structure->figures.depth;
+    for (const auto& [what, value] : structure->figures.details) one["details"][what] = value;
+  }
   return json.dump(2) + '\n';
 }
 
@@ -48,7 +65,23 @@ std::string vector_text(const Vec3& v) {
   return text;
 }
 
-std::string figures_text(const SceneFigures& figures) {
+std::string structure_text(const StructureFigures& structure) {
+  char line[96];
+  std::string text;
+  const auto add = [&](const std::string& what, const char* format, double value) {
+    std::snprintf(line, sizeof line, format, value);
+    text += "  " + what + ": " + line + '\n';
+  };
+  text += "structure   " + structure.accel + '\n';
+  add("built in seconds", "%.4f", structure.build_seconds);
+  add("memory in bytes", "%.0f", static_cast<double>(structure.figures.memory_bytes));
+  add("boxes, cells or nodes", "%.0f", static_cast<double>(structure.figures.boxes));
+  add("depth", "%.0f", structure.figures.depth);
+  for (const auto& [what, value] : structure.figures.details) add(what, "%.0f", value);
+  return text;
+}
+
+std::string figures_text(const SceneFigures& figures, const std::optional<StructureFigures>& structure) {
   char tolerance[32];
   std::snprintf(tolerance, sizeof tolerance, "%.3g", figures.tolerance);
   std::string text = "primitives  " + std::to_string(figures.primitives);
@@ -64,6 +97,7 @@ std::string figures_text(const SceneFigures& figures) {
   text += "\ntolerance   " + std::string(tolerance);
   text += "\nmaterials   " + std::to_string(figures.materials);
   text += "\nlights      " + std::to_string(figures.lights) + '\n';
+  if (structure) text += structure_text(*structure);
   return text;
 }
 
@@ -76,7 +110,13 @@ Status InfoCommand::run() const {
   console.progress().end();
   if (!compiled) return compiled.error();
   const SceneFigures figures = scene_figures(*compiled);
-  return write_standard_output(json ? figures_json(figures) : figures_text(figures));
+  std::optional<StructureFigures> structure;
+  if (!accel.empty()) {
+    Result<BuiltAccelerator> built = build_timed(accel, *compiled, nullptr, console);
+    if (!built) return built.error();
+    structure = StructureFigures{accel, built->seconds, built->accelerator->figures()};
+  }
+  return write_standard_output(json ? figures_json(figures, structure) : figures_text(figures, structure));
 }
 
 }  // namespace
@@ -84,6 +124,7 @@ Status InfoCommand::run() const {
 CommandBody add_info_command(CLI::App& command) {
   const auto arguments = std::make_shared<InfoCommand>();
   arguments->scene.add_to(command);
+  command.add_option("--accel", arguments->accel, "Build this structure, NAME[:key=value,...], and print its figures");
   command.add_flag("--json", arguments->json, "As a JSON object");
   return [arguments] { return arguments->run(); };
 }

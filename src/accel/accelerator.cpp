@@ -21,6 +21,19 @@ constexpr Entry entries[] = {
 
 }  // namespace
 
+void Accelerator::first_boundaries(std::span<const RayQuery> queries, std::span<RayBoundary> boundaries,
+                                   TraceContext& context) const {
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const Hit hit = first_hit(queries[i], context);
+    boundaries[i] = {hit.t, hit.surface, hit.entering};
+  }
+}
+
+bool Accelerator::occluded(const RayQuery& query, TraceContext& context) const {
+  return any_hit(
+      query, [](const Hit&) { return true; }, context);
+}
+
 std::vector<std::string_view> accelerator_names() {
   std::vector<std::string_view> names;
   for (const Entry& entry : entries) names.push_back(entry.name);

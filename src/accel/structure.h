@@ -69,7 +69,7 @@ class StructureAccelerator final : public Accelerator {
   }
 
   AcceleratorFigures figures() const override {
-    return {structure_.memory_bytes(), structure_.boxes(), structure_.depth()};
+    return {structure_.memory_bytes(), structure_.boxes(), structure_.depth(), {}};
   }
 
  private:

@@ -74,6 +74,7 @@ class Classifier {
       : state_(std::move(state)), source_(std::move(source)), revealed_(leaf_count), inside_place_(leaf_count) {}
 
   Source& source() { return source_; }
+  State& state() { return state_; }
 
   /// Begins a new ray. The source must know it by now.
   void start() {

@@ -213,7 +213,7 @@ Vec3 Placement::world_error(const Vec3& extent) const {
 Placement::MappedRay Placement::to_local(const Ray& ray, double tolerance, int on_face) const {
   MappedRay mapped;
   if (on_face < 0) {
-    mapped.shift = dot(world_center_ - ray.origin, ray.direction) / dot(ray.direction, ray.direction);
+    mapped.shift = dot(world_center_ - ray.origin, ray.direction) * (1 / dot(ray.direction, ray.direction));
     if (!std::isfinite(mapped.shift)) mapped.shift = 0;
   }
   const Vec3 from_world_origin = ray.origin - world_origin_;
@@ -227,6 +227,17 @@ Placement::MappedRay Placement::to_local(const Ray& ray, double tolerance, int o
                        std::fabs(mapped.shift) * local.direction_error;
   local.on_face = on_face;
   return mapped;
+}
+
+Placement::RayErrors Placement::ray_errors(double farthest, double tolerance) const {
+  const Vec3 from{farthest, farthest, farthest};
+  // |shift| |d| is at most the distance to the centre.
+  const double moved = length(from + abs(world_center_)) * (1 + gamma(8));
+  RayErrors errors;
+  errors.direction = times(relative_error_, {1, 1, 1});
+  errors.origin = constant_error_ + tolerance * row_length_ + times(relative_error_, from + abs(world_origin_)) +
+                  moved * errors.direction;
+  return errors;
 }
 
 LocalBox Placement::to_local(const Box3& box) const {

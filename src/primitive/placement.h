@@ -43,6 +43,8 @@ class Placement {
   /// The linear part of the inverse map; its translation is zero, since points are taken relative to world_origin().
   const Affine3& local_from_world_linear() const { return local_from_world_; }
   const Vec3& world_origin() const { return world_origin_; }
+  /// The point that rays are moved near to.
+  const Vec3& world_center() const { return world_center_; }
   /// Bound on the distance, per world axis, between the image of a local point under world_from_local() and under the
   /// exact map (without the rounding of applying it), for points with |p| <= extent component by component. Infinite
   /// where an error meets an infinite extent.
@@ -63,6 +65,13 @@ class Placement {
   ///                   added to the error of the origin
   /// @param on_face    the face the ray starts on, or -1
   MappedRay to_local(const Ray& ray, double tolerance, int on_face) const;
+
+  /// Bounds on the errors that to_local() gives a ray: of its origin, and of its direction for one of length 1.
+  /// @param farthest  the ray's origin has no larger coordinate
+  struct RayErrors {
+    Vec3 origin, direction;
+  };
+  RayErrors ray_errors(double farthest, double tolerance) const;
 
   /// The box in the local frame.
   LocalBox to_local(const Box3& box) const;

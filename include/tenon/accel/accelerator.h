@@ -45,6 +45,22 @@ struct AcceleratorFigures {
   std::size_t memory_bytes = 0;
   std::size_t boxes = 0;  ///< boxes, cells or nodes
   int depth = 0;
+
+  /// What else a structure has to say: what it counts, and how many.
+  struct Detail {
+    std::string what;
+    double value = 0;
+  };
+  std::vector<Detail> details;
+};
+
+/// The first boundary of the solid along a ray, without what only shading needs: t and surface are those of the Hit.
+struct RayBoundary {
+  double t = std::numeric_limits<double>::infinity();  ///< infinite when there is none
+  LeafFace surface;
+  bool entering = false;  ///< the ray enters the solid (or another medium of it)
+
+  bool found() const { return t < std::numeric_limits<double>::infinity(); }
 };
 
 /// Whether a boundary stops a shadow ray. Called once for each boundary on the way, in any order.
@@ -63,6 +79,14 @@ class Accelerator {
   /// For each query the first boundary of the solid at t > 0, before t_max; Hit::found() is false where there is none.
   /// `hits` has the length of `queries`.
   virtual void first_hits(std::span<const RayQuery> queries, std::span<Hit> hits, TraceContext& context) const = 0;
+
+  /// The same boundaries, for those who want no more of them: normals and materials cost time.
+  /// `boundaries` has the length of `queries`.
+  virtual void first_boundaries(std::span<const RayQuery> queries, std::span<RayBoundary> boundaries,
+                                TraceContext& context) const;
+
+  /// Whether there is any boundary at 0 < t < t_max: a shadow ray where nothing is transparent.
+  virtual bool occluded(const RayQuery& query, TraceContext& context) const;
 
   /// True as soon as `stops` returned true for a boundary at 0 < t < t_max.
   virtual bool any_hit(const RayQuery& query, StopsRay stops, TraceContext& context) const = 0;

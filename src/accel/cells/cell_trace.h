@@ -1,0 +1,102 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "accel/cells/cell_tree.h"
+#include "csg/classifier.h"
+#include "tenon/accel/accelerator.h"
+#include "tenon/primitive/crossing.h"
+
+namespace tenon::cells {
+
+/// What a ray met among the cells.
+struct CellAnswer {
+  enum class Kind : std::uint8_t {
+    nothing,   ///< no boundary before t_max
+    boundary,  ///< certainly the first one, or for occluded() some one
+    unsure,    ///< crossings too near to each other, or to the start: the exact structure has to say
+  };
+
+  double t = 0;
+  Kind kind = Kind::nothing;
+  bool leaf_entering = false;  ///< the ray enters the leaf whose face it meets
+  bool before = false;         ///< whether the ray was inside the solid
+  LeafFace surface;
+  std::uint32_t cell = 0;
+  static constexpr std::uint32_t no_run = ~std::uint32_t{0};
+  std::uint32_t run = no_run;  ///< into CellScratch::runs, where several crossings had to be told apart
+};
+
+/// The expression of one cell, for the classifier; leaves by their place in the cell.
+class CellState {
+ public:
+  void enter(const Cell& cell, std::span<const Symbol> symbols) {
+    table_ = cell.table;
+    symbols_ = symbols;
+    count_ = cell.extended ? symbols.size() : cell.leaf_count;
+  }
+  void reset() { inside_.assign(count_, false); }
+  bool flip(LeafId leaf) {
+    inside_[leaf.get()] = !inside_[leaf.get()];
+    return value();
+  }
+  bool value() const {
+    if (symbols_.empty()) {
+      std::uint32_t state = 0;
+      for (std::size_t i = 0; i < count_; ++i) state |= static_cast<std::uint32_t>(inside_[i]) << i;
+      return (table_ >> state & 1) != 0;
+    }
+    // The leaves stand in the order of the symbols.
+    std::size_t next = 0;
+    return evaluate(symbols_, [&](LeafId) { return inside_[next++]; }).value;
+  }
+  bool inside(LeafId leaf) const { return inside_[leaf.get()]; }
+  /// Who owns the solid is known of the cell as a whole (Cell::owner).
+  bool owns(LeafId) const { return false; }
+
+ private:
+  std::uint64_t table_ = 0;
+  std::span<const Symbol> symbols_;
+  std::size_t count_ = 0;
+  std::vector<bool> inside_;
+};
+
+/// The crossings with the leaves of one cell, as listed by the tracer.
+struct CellCrossings {
+  std::vector<Spans> of_leaf;
+
+  void crossings(LeafId place, Spans& out) const {
+    const Spans& known = of_leaf[place.get()];
+    out.insert(out.end(), known.begin(), known.end());
+  }
+  bool has_media() const { return false; }
+  MediumId medium(LeafId) const { return medium_opaque; }
+  double priority(LeafId) const { return 0; }
+};
+
+using CellClassifier = Classifier<CellState, CellCrossings>;
+
+/// What a thread keeps from ray to ray.
+struct CellScratch {
+  struct KnownSpans {
+    LeafId leaf;
+    std::uint64_t ray = 0;
+    Spans spans;
+  };
+  static constexpr std::size_t known = 64;
+
+  /// A mailbox for leaves whose spans() is costly: found by the leaf's lowest bits.
+  std::vector<KnownSpans> mailbox = std::vector<KnownSpans>(known);
+  std::uint64_t ray = 0;
+  std::optional<CellClassifier> classifier;  ///< for as many leaves as any cell has
+  std::vector<Run> runs;                     ///< of the tile
+};
+
+/// Follows rays to their first boundaries with the widest instructions that the machine has: neighbours that go the
+/// same way together, the others one by one.
+void trace_first(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries,
+                 std::span<CellAnswer> answers, CellScratch& scratch, TraversalStatistics& statistics);
+
+}  // namespace tenon::cells

@@ -1,0 +1,217 @@
+#include <cassert>
+#include <mutex>
+
+#include "accel/all.h"
+#include "accel/cells/cell_trace.h"
+#include "csg/classifier.h"
+#include "csg/make_hit.h"
+#include "csg/minimum_enclosure.h"
+#include "primitive/dispatch.h"
+#include "tenon/base/parallel_for.h"
+
+namespace tenon {
+
+namespace {
+
+using cells::CellAnswer;
+using cells::CellTree;
+
+/// `cells`: space is cut until the Boolean expression in each cell is a word of truth values over a few primitives, so
+/// that the first change of value in the first cell is the answer.
+///
+/// Rays are followed by plain arithmetic that proves its own answer: crossings nearer to each other than twice the
+/// resolution (CellScale), grazing rays, rays that start in faces that they do not know of, surfaces without inside,
+/// media, solids without end go to an exact structure, which is built when it is first asked. So the answers are those
+/// of every other structure, bit for bit.
+class Cells final : public Accelerator {
+ public:
+  Cells(const CsgTree& tree, CellTree cells) : tree_(tree), cells_(std::move(cells)) {}
+
+  std::unique_ptr<TraceContext> make_context() const override { return std::make_unique<Context>(); }
+
+  void first_hits(std::span<const RayQuery> queries, std::span<Hit> hits, TraceContext& base) const override {
+    auto& context = static_cast<Context&>(base);
+    context.answers.resize(queries.size());
+    trace(queries, context.answers, context);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const CellAnswer& answer = context.answers[i];
+      if (answer.kind == CellAnswer::Kind::nothing) {
+        hits[i] = Hit{};
+      } else if (answer.kind == CellAnswer::Kind::unsure || !complete(queries[i], answer, hits[i], context)) {
+        exact(context, [&](const Accelerator& exact, TraceContext& exact_context) {
+          exact.first_hits(queries.subspan(i, 1), hits.subspan(i, 1), exact_context);
+        });
+      }
+    }
+  }
+
+  void first_boundaries(std::span<const RayQuery> queries, std::span<RayBoundary> boundaries,
+                        TraceContext& base) const override {
+    auto& context = static_cast<Context&>(base);
+    context.answers.resize(queries.size());
+    trace(queries, context.answers, context);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const CellAnswer& answer = context.answers[i];
+      boundaries[i] = RayBoundary{};
+      if (answer.kind == CellAnswer::Kind::boundary) {
+        boundaries[i] = {answer.t, answer.surface, !answer.before};
+      } else if (answer.kind == CellAnswer::Kind::unsure) {
+        exact(context, [&](const Accelerator& exact, TraceContext& exact_context) {
+          exact.first_boundaries(queries.subspan(i, 1), boundaries.subspan(i, 1), exact_context);
+        });
+      }
+    }
+  }
+
+  bool occluded(const RayQuery& query, TraceContext& base) const override {
+    auto& context = static_cast<Context&>(base);
+    CellAnswer answer;
+    trace({&query, 1}, {&answer, 1}, context);
+    if (answer.kind != CellAnswer::Kind::unsure) return answer.kind == CellAnswer::Kind::boundary;
+    bool is_occluded = false;
+    exact(context, [&](const Accelerator& exact, TraceContext& exact_context) {
+      is_occluded = exact.occluded(query, exact_context);
+    });
+    return is_occluded;
+  }
+
+  bool any_hit(const RayQuery& query, StopsRay stops, TraceContext& base) const override {
+    auto& context = static_cast<Context&>(base);
+    CellAnswer answer;
+    trace({&query, 1}, {&answer, 1}, context);
+    if (answer.kind == CellAnswer::Kind::nothing) return false;
+    Hit first;
+    bool asked = false;
+    if (answer.kind == CellAnswer::Kind::boundary && complete(query, answer, first, context)) {
+      if (stops(first)) return true;
+      asked = true;
+    }
+    // What lies behind the first boundary; that one is asked once.
+    bool stopped = false;
+    exact(context, [&](const Accelerator& exact, TraceContext& exact_context) {
+      stopped = exact.any_hit(
+          query,
+          [&](const Hit& hit) {
+            if (!asked || hit.t != first.t) return stops(hit);
+            asked = false;
+            return false;
+          },
+          exact_context);
+    });
+    return stopped;
+  }
+
+  void all_spans(const RayQuery& query, std::vector<SolidSpan>& spans, TraceContext& base) const override {
+    exact(static_cast<Context&>(base),
+          [&](const Accelerator& exact, TraceContext& exact_context) { exact.all_spans(query, spans, exact_context); });
+  }
+
+  AcceleratorFigures figures() const override {
+    AcceleratorFigures figures{cells_.memory_bytes(), cells_.nodes.size() + cells_.cells.size(), cells_.depth, {}};
+    for (const auto& [what, value] : cells_.details()) figures.details.push_back({what, value});
+    return figures;
+  }
+
+ private:
+  struct Context final : TraceContext {
+    cells::CellScratch scratch;
+    std::vector<CellAnswer> answers;
+    Spans spans;
+    std::unique_ptr<TraceContext> exact;
+  };
+
+  void trace(std::span<const RayQuery> queries, std::span<CellAnswer> answers, Context& context) const {
+    for (const RayQuery& query : queries) ++context.statistics[query.kind].rays;
+    if (cells_.empty()) {
+      std::fill(answers.begin(), answers.end(), CellAnswer{});
+      return;
+    }
+    trace_first(cells_, tree_, queries, answers, context.scratch, context.statistics);
+  }
+
+  // The boundary as the classifier would have found it; false when its material is not known here.
+  bool complete(const RayQuery& query, const CellAnswer& answer, Hit& hit, Context& context) const {
+    const Leaf& leaf = tree_[answer.surface.leaf];
+    const std::uint32_t owner = cells_.cells[answer.cell].owner;
+    Run run;
+    if (answer.run != CellAnswer::no_run) run = context.scratch.runs[answer.run];
+    if (!leaf.material) {
+      if (owner == cells::Owner::varies) return false;
+      if (owner != cells::Owner::nobody) run.owner = LeafId{owner};
+    }
+    if (answer.run != CellAnswer::no_run) {
+      hit = make_hit(tree_, query.ray, run);
+      return true;
+    }
+    int on_face = -1;
+    if (query.from != nullptr) {
+      for (std::size_t i = 0; i < query.from->faces.size(); ++i) {
+        if (query.from->faces[i].leaf == answer.surface.leaf) on_face = static_cast<int>(query.from->faces[i].face);
+      }
+    }
+    context.spans.clear();
+    spans(tree_.primitives, leaf.primitive, leaf.placement, query.ray, tree_.tolerance.distance, on_face,
+          context.spans);
+    for (const Crossing& crossing : context.spans) {
+      if (crossing.t != answer.t || crossing.entering != answer.leaf_entering) continue;
+      assert(crossing.bound * length(query.ray.direction) <= cells_.scale.resolution);
+      run.t = crossing.t;
+      run.bound = crossing.bound;
+      run.surface = {answer.surface.leaf, crossing.face};
+      run.leaf_entering = crossing.entering;
+      run.before = answer.before ? medium_opaque : medium_outside;
+      run.after = answer.before ? medium_outside : medium_opaque;
+      run.faces.push_back(run.surface);
+      hit = make_hit(tree_, query.ray, run);
+      return true;
+    }
+    ++context.statistics.seam_faults;
+    return false;
+  }
+
+  template <class Ask>
+  void exact(Context& context, const Ask& ask) const {
+    std::call_once(exact_built_, [this] { exact_ = std::move(build_accelerator("multi-kd", tree_)).value(); });
+    if (!context.exact) context.exact = exact_->make_context();
+    ask(*exact_, *context.exact);
+  }
+
+  const CsgTree& tree_;
+  CellTree cells_;
+  mutable std::once_flag exact_built_;
+  mutable std::unique_ptr<Accelerator> exact_;
+};
+
+// Whether a solid's points and materials follow from inside and outside alone, and the solid has an end.
+bool is_plain(const CsgTree& tree, const Box3& enclosure) {
+  if (tree.has_media || !(enclosure.is_bounded() || enclosure.is_empty())) return false;
+  for (const Leaf& leaf : tree.leaves) {
+    if (leaf.priority != tree.leaves.front().priority) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Accelerator>> build_cells(const BuildInput& input, AcceleratorOptions& options) {
+  cells::BuildQuality quality;
+  switch (options.take_word("quality", {"default", "fast", "high"})) {
+    case 1:
+      quality = {1.0 / 8, 1};
+      break;
+    case 2:
+      quality = {1.0 / 128, 7};
+      break;
+    default:
+      break;
+  }
+  if (Status status = options.finish(); !status) return status.error();
+  const CsgTree& tree = input.tree;
+  const Box3 enclosure = tree.root ? node_enclosures(tree)[tree.root.get()] : Box3::empty();
+  if (!is_plain(tree, enclosure)) return build_accelerator("multi-kd", tree, input.view);
+  CellTree cells;
+  if (!enclosure.is_empty()) cells = CellTree::build(tree, enclosure, quality, available_threads());
+  return std::unique_ptr<Accelerator>(std::make_unique<Cells>(tree, std::move(cells)));
+}
+
+}  // namespace tenon

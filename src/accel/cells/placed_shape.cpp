@@ -1,0 +1,175 @@
+#include "accel/cells/placed_shape.h"
+
+#include <cmath>
+
+#include "primitive/lists.h"
+#include "tenon/math/rounding.h"
+
+namespace tenon::cells {
+
+namespace {
+
+std::array<double, 3> array_of(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+std::array<double, 9> rows_of(const Affine3& map) {
+  std::array<double, 9> rows{};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) rows[static_cast<std::size_t>(3 * i + j)] = map.row(i)[j];
+  }
+  return rows;
+}
+
+bool is_upright(const Affine3& map) {
+  return map.row(0).y == 0 && map.row(0).z == 0 && map.row(1).x == 0 && map.row(1).z == 0 && map.row(2).x == 0 &&
+         map.row(2).y == 0;
+}
+
+double square(double x) {
+  return x * x;
+}
+
+// What of a leaf's errors matters, in its frame, for rays that start within CellScale::far_origin and crossings within
+// 4 reach of the point nearest to the leaf's centre (the whole scene lies nearer).
+class Certainty {
+ public:
+  Certainty(const Leaf& leaf, const CsgTree& tree, const CellScale& scale) : scale_(scale) {
+    const Placement& p = leaf.placement;
+    const Placement::RayErrors errors = p.ray_errors(scale.far_origin, tree.tolerance.distance);
+    origin_ = errors.origin;
+    direction_ = errors.direction;
+    for (int i = 0; i < 3; ++i) most_ += square(length(p.local_from_world_linear().row(i)));
+    most_ = std::sqrt(most_);
+    for (int i = 0; i < 3; ++i) least_ += square(length(p.world_from_local().row(i)));
+    least_ = 1 / std::sqrt(least_);
+    // Places in the frame are at most so far off, and round by as much again.
+    const double far = 8 * scale.reach * most_;
+    place_ = origin_ + 4 * scale.reach * direction_ + gamma(4) * Vec3{far, far, far};
+  }
+
+  /// Bound on the error of a place on the ray, per axis.
+  const Vec3& place() const { return place_; }
+  /// Norms of local_from_world, at most and at least.
+  double most_stretch() const { return most_; }
+  double least_stretch() const { return least_; }
+
+  /// A discriminant D of q, known to within `error`, has roots within error / sqrt(D); half the resolution is left for
+  /// the rounding of t. Where D is below minus this there are certainly none: D >= -|a| error has.
+  double graze(double error) const {
+    return std::max(square(2 * error / scale_.resolution), 2 * square(most_) * error);
+  }
+
+  /// A plane that is met at slope s is crossed within error / |s|.
+  double least_slope(double error) const { return 2 * error / scale_.resolution; }
+
+  /// Whether the second root of a ray that starts on a quadric of radius r (solve_deflated) is within half the
+  /// resolution, whatever its direction.
+  bool starts_are_certain(double r, double least_quadratic) const {
+    const double d = length(direction_), o = length(place_), m = most_;
+    const double a_error = 2 * m * d + d * d + gamma(12) * m * m;
+    const double b_error = (r + o) * d + m * o + gamma(12) * r * m;
+    const double bound =
+        (a_error * 2 * (r + o) / std::sqrt(least_quadratic) + 2 * b_error) / (least_quadratic - a_error);
+    return least_quadratic > 2 * a_error && bound <= 0.5 * scale_.resolution;
+  }
+
+ private:
+  const CellScale& scale_;
+  Vec3 origin_, direction_, place_;
+  double most_ = 0, least_ = 0;
+};
+
+class Placer {
+ public:
+  Placer(const CsgTree& tree, const CellScale& scale, PlacedShapes& shapes)
+      : tree_(tree), scale_(scale), shapes_(shapes) {}
+
+  ShapeRef place(const Leaf& leaf) {
+    return visit(tree_.primitives.lists(), leaf.primitive, [&](const auto& primitive) { return add(leaf, primitive); });
+  }
+
+ private:
+  template <class P>
+  ShapeRef add(const Leaf&, const P&) {
+    return {ShapeKind::general, 0};
+  }
+
+  ShapeRef add(const Leaf& leaf, const Sphere& sphere) {
+    const Certainty certainty(leaf, tree_, scale_);
+    const double e = length(certainty.place());
+    const double error = e * (2 * sphere.r + e) + gamma(12) * sphere.r * sphere.r;
+    if (!(e < sphere.r / 16) || !certainty.starts_are_certain(sphere.r, square(certainty.least_stretch())))
+      return {ShapeKind::general, 0};
+    const Placement& p = leaf.placement;
+    const Affine3& map = p.local_from_world_linear();
+    const double graze = certainty.graze(error), radius_square = sphere.r * sphere.r;
+    if (is_upright(map)) {
+      shapes_.upright_spheres.push_back(
+          {array_of(p.world_origin()), {map.row(0).x, map.row(1).y, map.row(2).z}, radius_square, graze});
+      return {ShapeKind::upright_sphere, shapes_.upright_spheres.size() - 1};
+    }
+    shapes_.spheres.push_back({array_of(p.world_origin()), rows_of(map), radius_square, graze});
+    return {ShapeKind::sphere, shapes_.spheres.size() - 1};
+  }
+
+  ShapeRef add(const Leaf& leaf, const Box& box) {
+    const Certainty certainty(leaf, tree_, scale_);
+    const Placement& p = leaf.placement;
+    const Affine3& map = p.local_from_world_linear();
+    std::array<double, 3> slopes{};
+    for (int i = 0; i < 3; ++i) slopes[static_cast<std::size_t>(i)] = certainty.least_slope(certainty.place()[i]);
+    if (is_upright(map)) {
+      shapes_.upright_boxes.push_back({array_of(p.world_center()),
+                                       array_of(p.world_origin()),
+                                       {map.row(0).x, map.row(1).y, map.row(2).z},
+                                       array_of(box.lower()),
+                                       array_of(box.upper()),
+                                       slopes});
+      return {ShapeKind::upright_box, shapes_.upright_boxes.size() - 1};
+    }
+    shapes_.boxes.push_back({array_of(p.world_center()), array_of(p.world_origin()), rows_of(map),
+                             array_of(box.lower()), array_of(box.upper()), slopes});
+    return {ShapeKind::box, shapes_.boxes.size() - 1};
+  }
+
+  ShapeRef add(const Leaf& leaf, const Cylinder& cylinder) {
+    const Certainty certainty(leaf, tree_, scale_);
+    const double e = length(Vec3{certainty.place().x, certainty.place().y, 0});
+    const double r = cylinder.r, h = cylinder.h;
+    const double error = e * (2 * r + e) + gamma(12) * r * r;
+    // A line this steep moves aside by at most r / 8 along three heights: along one that its part between the caps
+    // has, and two that its nearest point may lie off. Its component along the axis is then at least 3/4 of its length.
+    const double aside = std::min(r / (8 * 4 * h), 0.5) * certainty.least_stretch();
+    const double parallel = square(aside);
+    if (!(e < r / 0x1p10) || !certainty.starts_are_certain(r, parallel)) return {ShapeKind::general, 0};
+    const Placement& p = leaf.placement;
+    shapes_.cylinders.push_back({array_of(p.world_center()), array_of(p.world_origin()),
+                                 rows_of(p.local_from_world_linear()), cylinder.low(), cylinder.high(), r * r,
+                                 certainty.graze(error), certainty.least_slope(certainty.place().z), parallel,
+                                 square(r - r / 4), square(r + r / 4)});
+    return {ShapeKind::cylinder, shapes_.cylinders.size() - 1};
+  }
+
+  const CsgTree& tree_;
+  const CellScale& scale_;
+  PlacedShapes& shapes_;
+};
+
+}  // namespace
+
+PlacedShapes PlacedShapes::of(const CsgTree& tree, const CellScale& scale) {
+  PlacedShapes shapes;
+  shapes.of_leaf.reserve(tree.leaves.size());
+  Placer placer(tree, scale, shapes);
+  for (const Leaf& leaf : tree.leaves) shapes.of_leaf.push_back(placer.place(leaf));
+  return shapes;
+}
+
+std::size_t PlacedShapes::memory_bytes() const {
+  return of_leaf.size() * sizeof(ShapeRef) + upright_spheres.size() * sizeof(UprightSphere) +
+         spheres.size() * sizeof(PlacedSphere) + upright_boxes.size() * sizeof(UprightBox) +
+         boxes.size() * sizeof(PlacedBox) + cylinders.size() * sizeof(PlacedCylinder);
+}
+
+}  // namespace tenon::cells

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "accel/cells/cell_scale.h"
+#include "csg/csg_tree.h"
+
+namespace tenon::cells {
+
+/// The kinds of leaf whose chord is found without error bounds, by the same operations in the same order as spans(), so
+/// that t is the same double. Every other leaf is `general`: spans() itself.
+enum class ShapeKind : std::uint8_t { general, sphere, upright_sphere, box, upright_box, cylinder };
+
+/// A leaf by kind, and its place in the list of that kind.
+struct ShapeRef {
+  std::uint32_t bits = 0;
+
+  ShapeRef() = default;
+  ShapeRef(ShapeKind kind, std::size_t index)
+      : bits(static_cast<std::uint32_t>(kind) << 28 | static_cast<std::uint32_t>(index)) {}
+  ShapeKind kind() const { return static_cast<ShapeKind>(bits >> 28); }
+  std::uint32_t index() const { return bits & 0xfffffff; }
+};
+
+/// A sphere under a map that sends axes to axes.
+struct alignas(64) UprightSphere {
+  std::array<double, 3> center;  ///< world
+  std::array<double, 3> scale;   ///< diagonal of local_from_world
+  double square;                 ///< of the radius
+  /// The discriminant, over |direction|², below which the bounds of the crossings may exceed the resolution.
+  double graze;
+};
+
+struct alignas(64) PlacedSphere {
+  std::array<double, 3> center;
+  std::array<double, 9> map;  ///< local_from_world by rows
+  double square;
+  double graze;
+};
+
+struct alignas(64) UprightBox {
+  std::array<double, 3> center;  ///< world: of the box
+  std::array<double, 3> origin;  ///< world: of its frame
+  std::array<double, 3> scale;
+  std::array<double, 3> low, high;
+  /// The component of the local direction, over |direction|, below which the bound of a crossing with this pair of
+  /// faces may exceed the resolution.
+  std::array<double, 3> least_slope;
+};
+
+struct alignas(64) PlacedBox {
+  std::array<double, 3> center;
+  std::array<double, 3> origin;
+  std::array<double, 9> map;
+  std::array<double, 3> low, high;
+  std::array<double, 3> least_slope;
+};
+
+struct alignas(64) PlacedCylinder {
+  std::array<double, 3> center;
+  std::array<double, 3> origin;
+  std::array<double, 9> map;
+  double low, high, square;
+  double graze;
+  double least_slope;  ///< of the caps
+  /// Lines whose direction across the axis is below this, squared, over |direction|², count as parallel to it ...
+  double parallel;
+  /// ... and are inside or outside as a whole unless x² + y² lies between these.
+  double surely_inside, surely_outside;
+};
+
+/// The leaves of a scene, ready for many rays.
+struct PlacedShapes {
+  std::vector<ShapeRef> of_leaf;  ///< by LeafId
+  std::vector<UprightSphere> upright_spheres;
+  std::vector<PlacedSphere> spheres;
+  std::vector<UprightBox> upright_boxes;
+  std::vector<PlacedBox> boxes;
+  std::vector<PlacedCylinder> cylinders;
+
+  static PlacedShapes of(const CsgTree& tree, const CellScale& scale);
+  std::size_t memory_bytes() const;
+};
+
+}  // namespace tenon::cells
