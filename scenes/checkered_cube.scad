@@ -13,10 +13,14 @@ module lattice() {
   rotate([0, 270, 0]) grid();
 }
 
-clay([0.80, 0.42, 0.30]) difference() {
-  scale(2.2) translate([-0.5, -0.5, -0.5]) cube(1);
-  lattice();
+module checkered_cube() {
+  difference() {
+    scale(2.2) translate([-0.5, -0.5, -0.5]) cube(1);
+    lattice();
+  }
 }
+
+clay([0.80, 0.42, 0.30]) checkered_cube();
 
 ground(-1.15);
 studio_lights();

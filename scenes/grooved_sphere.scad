@@ -4,14 +4,18 @@ include <studio.scad>
 module groove() { translate([0, 0, 0.374]) scale(0.9) torus(R = 1, r = 0.1); }
 module groove_pair() { groove(); rotate([0, 180, 0]) groove(); }
 
-clay() difference() {
-  sphere(1);
-  union() {
-    groove_pair();
-    rotate([0, 90, 0]) groove_pair();
-    rotate([90, 0, 0]) groove_pair();
+module grooved_sphere() {
+  difference() {
+    sphere(1);
+    union() {
+      groove_pair();
+      rotate([0, 90, 0]) groove_pair();
+      rotate([90, 0, 0]) groove_pair();
+    }
   }
 }
+
+clay() grooved_sphere();
 
 ground(-1.05);
 studio_lights();

@@ -13,7 +13,11 @@ module segment() {
   }
 }
 
-clay([0.55, 0.70, 0.78]) for (i = [0:64]) scale(pow(0.979, i)) rotate([0, 0, 12 * i]) segment();
+module large_shell() {
+  for (i = [0:64]) scale(pow(0.979, i)) rotate([0, 0, 12 * i]) segment();
+}
+
+clay([0.55, 0.70, 0.78]) large_shell();
 
 ground(-1.05);
 studio_lights();

@@ -12,7 +12,11 @@ module segment() {
   }
 }
 
-clay([0.93, 0.72, 0.55]) for (i = [0:15]) scale(pow(0.93, i)) rotate([0, 0, 22.5 * i]) segment();
+module small_shell() {
+  for (i = [0:15]) scale(pow(0.93, i)) rotate([0, 0, 22.5 * i]) segment();
+}
+
+clay([0.93, 0.72, 0.55]) small_shell();
 
 ground(-1.05);
 studio_lights();
