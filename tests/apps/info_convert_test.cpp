@@ -52,6 +52,11 @@ TEST_F(InfoAndConvert, ConvertedTreeIsTheSameScene) {
   EXPECT_EQ(traced.out, run({"trace", "b.csg", "--rays", "-"}, ray).out);
 }
 
+TEST_F(InfoAndConvert, ConvertsToPovRay) {
+  ASSERT_EQ(run({"convert", "a.scad", "-o", "a.pov"}).status, 0);
+  EXPECT_TRUE(contains(read("a.pov"), "difference {")) << read("a.pov");
+}
+
 TEST_F(InfoAndConvert, WrongScenesLeaveNothing) {
   write("bad.scad", "cube(");
   const std::size_t before = files();

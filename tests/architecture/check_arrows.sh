@@ -16,12 +16,13 @@ allowed() {
     render) echo "scene accel csg primitive math base" ;;
     lang) echo "scene csg primitive math base" ;;
     image) echo "math base" ;;
+    exchange) echo "render scene accel csg primitive math base" ;;
     *) echo "?" ;;
   esac
 }
 
 failed=0
-for folder in base math primitive csg accel scene render lang image; do
+for folder in base math primitive csg accel scene render lang image exchange; do
   for file in $(find "src/$folder" "include/tenon/$folder" \( -name '*.h' -o -name '*.cpp' \) 2>/dev/null); do
     for used in $(sed -n 's|^#include "\(tenon/\)\{0,1\}\([a-z]*\)/.*|\2|p' "$file" | sort -u); do
       [ "$used" = "$folder" ] && continue
@@ -37,7 +38,7 @@ for folder in base math primitive csg accel scene render lang image; do
   done
 done
 for file in $(find apps -name '*.h' -o -name '*.cpp'); do
-  if grep -nE '^#include "(base|math|primitive|csg|accel|scene|render|lang|image)/' "$file"; then
+  if grep -nE '^#include "(base|math|primitive|csg|accel|scene|render|lang|image|exchange)/' "$file"; then
     echo "$file: error: programs include only from include/tenon/"
     failed=1
   fi
