@@ -1,0 +1,60 @@
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "rays/parts.h"
+#include "tenon/accel/accelerator.h"
+#include "tenon/base/parallel_for.h"
+
+namespace {
+
+using namespace tenon;
+using namespace tenon::bench;
+
+struct Part {
+  const char* name;
+  Status (*run)(const PartOptions& options, Report& report);
+};
+
+constexpr std::array<Part, 6> parts{{{"structures", run_structures},
+                                     {"embree", run_embree},
+                                     {"povray", run_povray},
+                                     {"start", run_start},
+                                     {"cores", run_cores},
+                                     {"growth", run_growth}}};
+
+int run(const Part& part, const PartOptions& options) {
+  Report report(part.name);
+  Status status = part.run(options, report);
+  if (status) status = report.save();
+  if (status) return 0;
+  std::fprintf(stderr, "%s\n", format_error(status.error()).c_str());
+  return static_cast<int>(status.error().kind);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Tenon's bench, from the repository's root. Results and pictures go to build/bench/results.");
+  PartOptions options;
+  options.accelerator = std::string(default_accelerator);
+  options.threads = available_threads();
+  std::vector<std::string> wanted, names;
+  for (const Part& part : parts) names.emplace_back(part.name);
+  app.add_option("PART", wanted, "What to run; all of it when nothing is named")->check(CLI::IsMember(names));
+  app.add_option("--accel", options.accelerator, "Tenon's contender")->capture_default_str();
+  app.add_option("-j,--threads", options.threads, "What all cores are")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 4096));
+  app.add_option("--largest", options.largest_growth, "Spheres of the largest scene of `growth`")
+      ->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  for (const Part& part : parts) {
+    const bool is_wanted = wanted.empty() || std::find(wanted.begin(), wanted.end(), part.name) != wanted.end();
+    if (!is_wanted) continue;
+    if (const int status = run(part, options); status != 0) return status;
+  }
+  return 0;
+}

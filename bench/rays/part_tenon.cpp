@@ -1,0 +1,197 @@
+#include <chrono>
+#include <filesystem>
+#include <map>
+
+#include "rays/answers.h"
+#include "rays/mesh.h"
+#include "rays/parts.h"
+#include "rays/tenon_tracer.h"
+
+namespace tenon::bench {
+
+namespace {
+
+// A lift for rays that only Tenon traces: small against the scene, and far above rounding.
+double small_lift(const BenchScene& scene) {
+  return 1e-6 * length(scene.scene.camera.at - scene.scene.camera.from);
+}
+
+double seconds_since(std::chrono::steady_clock::time_point begun) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+}
+
+struct BuiltStructure {
+  std::unique_ptr<Accelerator> accelerator;
+  double seconds = 0;
+};
+
+Result<BuiltStructure> build(const std::string& spec, const BenchScene& scene) {
+  const auto begun = std::chrono::steady_clock::now();
+  const ScreenView& view = scene.camera.view();
+  Result<std::unique_ptr<Accelerator>> built = build_accelerator(spec, *scene.scene.tree, &view);
+  if (!built) return built.error();
+  return BuiltStructure{std::move(*built), seconds_since(begun)};
+}
+
+// OpenSCAD's examples, where they are installed; those that Tenon cannot draw yet are passed over.
+std::vector<std::string> example_paths() {
+  std::vector<std::string> paths;
+  const std::filesystem::path folder = "/usr/share/openscad/examples";
+  if (!std::filesystem::exists(folder)) return paths;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() == ".scad" && read_scene(entry.path().string()))
+      paths.push_back(entry.path().string());
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+Status compare_structures(const std::string& path, const PartOptions& options, Report& report,
+                          std::map<std::string, std::vector<double>>& against_best) {
+  const Result<BenchScene> scene = read_scene(path);
+  if (!scene) return scene.error();
+  std::vector<BuiltStructure> structures;
+  std::vector<std::unique_ptr<Tracer>> tracers;
+  const std::string own_name = options.accelerator.substr(0, options.accelerator.find(':'));
+  const auto add = [&](const std::string& spec) -> Status {
+    Result<BuiltStructure> built = build(spec, *scene);
+    if (!built && built.error().kind == ErrorKind::usage) return built.error();
+    if (!built) {
+      report.note(spec + " is left out: " + built.error().message);
+      return success();
+    }
+    report.figure(scene->name, spec + ": building it", built->seconds, "s");
+    tracers.push_back(std::make_unique<TenonTracer>(spec, *built->accelerator));
+    structures.push_back(std::move(*built));
+    return success();
+  };
+  if (Status status = add(options.accelerator); !status) return status;
+  for (const std::string_view name : accelerator_names()) {
+    if (name == "none" || name == own_name) continue;
+    if (Status status = add(std::string(name)); !status) return status;
+  }
+  for (const RaySet& set : make_ray_sets(*scene, *structures.front().accelerator, small_lift(*scene))) {
+    if (set.rays.empty()) continue;
+    const std::vector<Timing> timings = time_tracers(tracers, set, 1);
+    double least = Box3::inf;
+    for (const Timing& t : timings) {
+      report.rate(scene->name, std::string(set.name()), t, set.rays.size(), &timings.front());
+      if (&t != &timings.front()) least = std::min(least, ratio(t, timings.front()));
+    }
+    against_best[std::string(set.name())].push_back(least);
+    const std::vector<Answer> own = tracers.front()->answers();
+    for (const auto& tracer : tracers) {
+      const std::size_t differ = count_disagreements(own, tracer->answers(), set.kind);
+      if (differ > 0) report.note(tracer->name() + " DISAGREES on " + std::to_string(differ) + " rays");
+      tracer->unload();
+    }
+  }
+  return success();
+}
+
+}  // namespace
+
+Status run_structures(const PartOptions& options, Report& report) {
+  std::map<std::string, std::vector<double>> scenes, examples;
+  for (const std::string& name : scene_names()) {
+    report.heading(name);
+    if (Status status = compare_structures(scene_path(name), options, report, scenes); !status) return status;
+  }
+  for (const std::string& path : example_paths()) {
+    report.heading(path);
+    if (Status status = compare_structures(path, options, report, examples); !status) return status;
+  }
+  report.heading("how many times as fast as the best of the others on each scene");
+  for (const auto& [rays, ratios] : scenes) report.summary(rays + " rays, the six scenes", ratios);
+  for (const auto& [rays, ratios] : examples) report.summary(rays + " rays, OpenSCAD's examples", ratios);
+  return success();
+}
+
+Status run_growth(const PartOptions& options, Report& report) {
+  std::map<std::string, std::map<int, double>> rates;
+  for (int n = 100; n <= options.largest_growth; n *= 10) {
+    const std::string label = std::to_string(n) + " spheres";
+    report.heading(label);
+    const auto begun = std::chrono::steady_clock::now();
+    const Result<BenchScene> scene = read_scene(scene_path("spheres"), {{"n", std::to_string(n)}});
+    if (!scene) return scene.error();
+    report.figure(label, "reading and compiling", seconds_since(begun), "s");
+    Result<BuiltStructure> built = build(options.accelerator, *scene);
+    if (!built) return built.error();
+    report.figure(label, "building " + options.accelerator, built->seconds, "s");
+    report.figure(label, "memory of it", static_cast<double>(built->accelerator->figures().memory_bytes) / 0x1p20,
+                  "MiB");
+    std::vector<std::unique_ptr<Tracer>> tracers;
+    tracers.push_back(std::make_unique<TenonTracer>(options.accelerator, *built->accelerator));
+    for (const RaySet& set : make_ray_sets(*scene, *built->accelerator, small_lift(*scene))) {
+      const Timing timing = time_tracers(tracers, set, 1).front();
+      report.rate(label, std::string(set.name()), timing, set.rays.size());
+      rates[std::string(set.name())][n] = static_cast<double>(set.rays.size()) / timing.median();
+    }
+  }
+  report.heading("how many times slower than with 1000 spheres");
+  for (const auto& [rays, by_n] : rates) {
+    for (const auto& [n, rate] : by_n) {
+      if (n > 1000) report.figure(std::to_string(n) + " spheres", rays + " rays", by_n.at(1000) / rate, "times");
+    }
+  }
+  return success();
+}
+
+Status run_cores(const PartOptions& options, Report& report) {
+  std::map<std::string, std::vector<double>> ratios;
+  for (const std::string& name : scene_names()) {
+    const Result<BenchScene> scene = read_scene(scene_path(name));
+    if (!scene) return scene.error();
+    Result<BuiltStructure> built = build(options.accelerator, *scene);
+    if (!built) return built.error();
+    std::vector<std::unique_ptr<Tracer>> tracers;
+    tracers.push_back(std::make_unique<TenonTracer>(options.accelerator, *built->accelerator));
+    for (const RaySet& set : make_ray_sets(*scene, *built->accelerator, small_lift(*scene))) {
+      const Timing one = time_tracers(tracers, set, 1).front();
+      const Timing all = time_tracers(tracers, set, options.threads).front();
+      report.rate(name, std::string(set.name()), one, set.rays.size());
+      report.rate(name, std::string(set.name()) + " x" + std::to_string(options.threads), all, set.rays.size());
+      ratios[std::string(set.name())].push_back(one.median() / all.median());
+    }
+  }
+  for (const auto& [rays, r] : ratios) {
+    report.summary(std::to_string(options.threads) + " cores against one, " + rays + " rays", r);
+  }
+  return success();
+}
+
+Status run_start(const PartOptions& options, Report& report) {
+  std::map<int, std::vector<double>> ratios;
+  for (const std::string& name : scene_names()) {
+    std::vector<double> own;
+    for (int i = 0; i < rounds; ++i) {
+      Status failed = success();
+      own.push_back(cpu_seconds([&] {
+        const Result<BenchScene> scene = read_scene(scene_path(name));
+        if (!scene) return void(failed = scene.error());
+        const Result<BuiltStructure> built = build(options.accelerator, *scene);
+        if (!built) return void(failed = built.error());
+        RayQuery query;
+        query.ray = scene->camera.ray(0.5 * picture_width, 0.5 * picture_height);
+        (void)built->accelerator->first_hit(query, *built->accelerator->make_context());
+      }));
+      if (!failed) return failed;
+    }
+    report.figure(name, "from text to the first ray", median(own), "CPU s");
+    const Result<BenchScene> scene = read_scene(scene_path(name));
+    for (const int columns : {picture_width, 1920}) {
+      const Result<MadeMesh> made = make_mesh(*scene, columns, results_folder());
+      if (!made) return made.error();
+      const double theirs = made->cpu_seconds + EmbreeScene(made->mesh).build_seconds();
+      report.figure(name, "mesh " + std::to_string(columns) + " and Embree's tree", theirs, "CPU s");
+      ratios[columns].push_back(theirs / median(own));
+    }
+  }
+  for (const auto& [columns, r] : ratios) {
+    report.summary("sooner than the mesh for " + std::to_string(columns) + " columns and its tree", r);
+  }
+  return success();
+}
+
+}  // namespace tenon::bench

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "rays/report.h"
+#include "tenon/base/error.h"
+
+namespace tenon::bench {
+
+/// What the parts are told.
+struct PartOptions {
+  std::string accelerator;         ///< Tenon's contender, as `tenon --accel`
+  int threads = 1;                 ///< what "all cores" means
+  int largest_growth = 1'000'000;  ///< spheres of the largest scene of `growth`
+};
+
+/// Tenon against Embree on meshes within a quarter of a pixel, and on bare balls.
+Status run_embree(const PartOptions& options, Report& report);
+/// The accelerator against every structure of the papers.
+Status run_structures(const PartOptions& options, Report& report);
+/// A box less ever more spheres of the same volume.
+Status run_growth(const PartOptions& options, Report& report);
+/// All cores against one.
+Status run_cores(const PartOptions& options, Report& report);
+/// From the scene's text to the first ray, against making a mesh and its tree.
+Status run_start(const PartOptions& options, Report& report);
+/// Whole pictures against POV-Ray's.
+Status run_povray(const PartOptions& options, Report& report);
+
+}  // namespace tenon::bench
