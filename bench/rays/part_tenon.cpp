@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <map>
@@ -132,7 +133,8 @@ Status run_growth(const PartOptions& options, Report& report) {
   report.heading("how many times slower than with 1000 spheres");
   for (const auto& [rays, by_n] : rates) {
     for (const auto& [n, rate] : by_n) {
-      if (n > 1000) report.figure(std::to_string(n) + " spheres", rays + " rays", by_n.at(1000) / rate, "times");
+      if (n > 1000 && by_n.contains(1000))
+        report.figure(std::to_string(n) + " spheres", rays + " rays", by_n.at(1000) / rate, "times");
     }
   }
   return success();
