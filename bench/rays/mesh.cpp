@@ -53,7 +53,11 @@ struct FieldJson {
   Json operator()(double v) const { return v; }
   Json operator()(bool v) const { return v; }
   Json operator()(const Vec3& v) const { return {v.x, v.y, v.z}; }
-  Json operator()(const std::vector<Plane>&) const { return {}; }
+  // Kinds with such fields are refused by the mesh maker, which names them.
+  template <class Other>
+  Json operator()(const Other&) const {
+    return {};
+  }
 };
 
 Json leaf_json(const BenchScene& scene, const Leaf& leaf, int columns) {

@@ -4,30 +4,39 @@ namespace tenon::bench {
 
 void TenonTracer::load(const RaySet& set, int threads) {
   set_ = &set;
-  answers_.assign(set.rays.size(), Answer{});
-  while (workers_.size() < static_cast<std::size_t>(threads)) {
-    workers_.push_back({accelerator_.make_context(), std::vector<Hit>(block)});
-  }
+  boundaries_.assign(set.rays.size(), RayBoundary{});
+  occluded_.assign(set.rays.size(), 0);
+  while (contexts_.size() < static_cast<std::size_t>(threads)) contexts_.push_back(accelerator_.make_context());
 }
 
 void TenonTracer::trace(std::size_t begin, std::size_t end, int worker) {
-  Worker& own = workers_[static_cast<std::size_t>(worker)];
+  TraceContext& context = *contexts_[static_cast<std::size_t>(worker)];
   const std::span<const RayQuery> queries(set_->rays.data() + begin, end - begin);
   if (set_->kind == RayKind::shadow) {
-    const auto opaque = [](const Hit&) { return true; };
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      answers_[begin + i].hit = accelerator_.any_hit(queries[i], opaque, *own.context);
-    }
+    for (std::size_t i = 0; i < queries.size(); ++i) occluded_[begin + i] = accelerator_.occluded(queries[i], context);
     return;
   }
-  const std::span<Hit> hits(own.hits.data(), queries.size());
-  accelerator_.first_hits(queries, hits, *own.context);
-  for (std::size_t i = 0; i < queries.size(); ++i) answers_[begin + i] = {hits[i].found(), hits[i].t, hits[i].normal};
+  accelerator_.first_boundaries(queries, {boundaries_.data() + begin, queries.size()}, context);
+}
+
+// Normals are for the picture, which is not timed.
+std::vector<Answer> TenonTracer::answers() const {
+  std::vector<Answer> answers(boundaries_.size());
+  const auto context = accelerator_.make_context();
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (set_->kind == RayKind::shadow) {
+      answers[i].hit = occluded_[i] != 0;
+    } else if (boundaries_[i].found()) {
+      answers[i] = {true, boundaries_[i].t, accelerator_.first_hit(set_->rays[i], *context).normal};
+    }
+  }
+  return answers;
 }
 
 void TenonTracer::unload() {
   set_ = nullptr;
-  answers_ = {};
+  boundaries_ = {};
+  occluded_ = {};
 }
 
 }  // namespace tenon::bench

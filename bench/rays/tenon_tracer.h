@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "rays/tracer.h"
 
@@ -13,19 +15,15 @@ class TenonTracer final : public Tracer {
 
   void load(const RaySet& set, int threads) override;
   void trace(std::size_t begin, std::size_t end, int worker) override;
-  std::vector<Answer> answers() const override { return answers_; }
+  std::vector<Answer> answers() const override;
   void unload() override;
 
  private:
-  struct Worker {
-    std::unique_ptr<TraceContext> context;
-    std::vector<Hit> hits;
-  };
-
   const Accelerator& accelerator_;
   const RaySet* set_ = nullptr;
-  std::vector<Worker> workers_;
-  std::vector<Answer> answers_;
+  std::vector<std::unique_ptr<TraceContext>> contexts_;
+  std::vector<RayBoundary> boundaries_;
+  std::vector<std::uint8_t> occluded_;
 };
 
 }  // namespace tenon::bench
