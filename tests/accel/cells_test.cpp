@@ -123,6 +123,21 @@ TEST(Cells, PacketsSayWhatSingleRaysSay) {
   EXPECT_GT(found, queries.size() / 4);
 }
 
+// The tree is the same for any number of threads.
+TEST(Cells, AreBuiltAlikeByAnyNumberOfThreads) {
+  const CsgTree tree = gallery::random_scene(6, 400, 6);
+  const Box3 box = battery::extent(tree);
+  const CellTree one = CellTree::build(tree, box, {}, 1), four = CellTree::build(tree, box, {}, 4);
+  ASSERT_GT(one.cells.size(), 100u);
+  ASSERT_EQ(one.cells.size(), four.cells.size());
+  ASSERT_EQ(one.nodes.size(), four.nodes.size());
+  for (std::size_t i = 0; i < one.cells.size(); ++i) {
+    EXPECT_EQ(one.cells[i].table, four.cells[i].table);
+    EXPECT_EQ(one.cells[i].leaves, four.cells[i].leaves);
+  }
+  for (std::size_t i = 0; i < one.nodes.size(); ++i) EXPECT_EQ(one.nodes[i].ends, four.nodes[i].ends);
+}
+
 // What is left of an expression says the same as the whole wherever the constant leaves are as assumed.
 TEST(LocalExpression, FoldedSaysWhatTheWholeSays) {
   Draw draw(33);

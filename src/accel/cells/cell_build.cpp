@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 
 #include "accel/cells/cell.h"
 #include "accel/cells/leaf_regions.h"
 #include "primitive/dispatch.h"
+#include "tenon/base/parallel_for.h"
 
 namespace tenon::cells {
 
@@ -50,23 +52,55 @@ std::pair<Box3, Box3> halves(const Box3& box, const Plane& plane) {
   return result;
 }
 
+std::uint32_t join(Subdivision& tree, std::uint32_t left, std::uint32_t right) {
+  if (left == SubdivisionNode::none) return right;
+  if (right == SubdivisionNode::none) return left;
+  SubdivisionNode node;
+  node.box = hull(tree.nodes[left].box, tree.nodes[right].box);
+  node.left = left;
+  node.right = right;
+  tree.nodes.push_back(node);
+  return static_cast<std::uint32_t>(tree.nodes.size() - 1);
+}
+
 // Builds one part of the tree. Its memory is reused from cell to cell.
 class Subdivider {
  public:
-  Subdivider(const CsgTree& tree, const CellScale& scale, const BuildQuality& quality, Subdivision& result)
+  Subdivider(const CsgTree& tree, const CellScale& scale, const LeafRegions& leaf_regions, const BuildQuality& quality)
       : tree_(tree),
         scale_(scale),
-        leaf_regions_(tree),
+        leaf_regions_(leaf_regions),
         quality_(quality),
-        result_(result),
-        regions_(tree.leaves.size(), Region::outside),
-        most_symbols_(48 * tree.leaves.size() + (std::size_t{1} << 20)) {}
+        regions_(tree.leaves.size(), Region::outside) {}
+
+  /// Subdivides one part of space by itself.
+  /// @param most_symbols  when there are more, nothing is split any further
+  Subdivision subdivide(Work& work, std::size_t most_symbols) {
+    result_ = {};
+    most_symbols_ = most_symbols;
+    result_.root = build(work).first;
+    return std::move(result_);
+  }
+
+  /// Cuts a part in two where it pays.
+  /// @return whether there is a plane worth trying; `parts` then tell by their leaves which side has a boundary
+  bool split(const Work& work, std::array<Work, 2>& parts) {
+    if (!worth_splitting(work)) return false;
+    const Plane plane = choose_plane(work);
+    if (plane.axis < 0) return false;
+    const auto [low, high] = halves(work.box, plane);
+    const bool both = restrict_to(low, work, parts[0]) & restrict_to(high, work, parts[1]);
+    const bool in_vain = both && keeps_nearly_all(parts[0], work) && keeps_nearly_all(parts[1], work);
+    for (Work& part : parts) part.in_vain = in_vain ? work.in_vain + 1 : 0;
+    return true;
+  }
 
   /// What is left of the expression in a part of the box. @return whether there is a boundary
   bool restrict_to(const Box3& box, const Work& whole, Work& part) {
     classify_leaves(box, whole.leaves);
     part.box = box;
     part.depth = whole.depth + 1;
+    part.leaves.clear();
     if (folder_.fold(whole.expression, regions_, part.expression).constant) return false;
     list_leaves(part);
     return true;
@@ -76,21 +110,15 @@ class Subdivider {
   std::pair<std::uint32_t, double> build(Work& work) {
     result_.depth = std::max(result_.depth, work.depth);
     const double whole_cost = leaf_cost(work.leaves);
-    if (!worth_splitting(work)) return {add_cell(work), whole_cost};
-    const Plane plane = choose_plane(work);
-    if (plane.axis < 0) return {add_cell(work), whole_cost};
+    std::array<Work, 2> parts;
+    if (!split(work, parts)) return {add_cell(work), whole_cost};
 
     const std::size_t nodes = result_.nodes.size(), cells = result_.cells.size(), symbols = result_.symbols.size();
-    const auto [low, high] = halves(work.box, plane);
     const double area = work.box.surface_area();
     double cost = split_cost;
     std::uint32_t children[2] = {SubdivisionNode::none, SubdivisionNode::none};
-    std::array<Work, 2> parts;
-    const bool varies[2] = {restrict_to(low, work, parts[0]), restrict_to(high, work, parts[1])};
-    const bool in_vain = varies[0] && varies[1] && keeps_nearly_all(parts[0], work) && keeps_nearly_all(parts[1], work);
     for (std::size_t side = 0; side < 2; ++side) {
-      if (!varies[side]) continue;
-      parts[side].in_vain = in_vain ? work.in_vain + 1 : 0;
+      if (parts[side].leaves.empty()) continue;
       const auto [child, child_cost] = build(parts[side]);
       parts[side] = {};
       // Nothing is left where only the classification of the larger box was in doubt.
@@ -104,18 +132,7 @@ class Subdivider {
       result_.symbols.resize(symbols);
       return {add_cell(work), whole_cost};
     }
-    return {join(children[0], children[1]), cost};
-  }
-
-  std::uint32_t join(std::uint32_t left, std::uint32_t right) {
-    if (left == SubdivisionNode::none) return right;
-    if (right == SubdivisionNode::none) return left;
-    SubdivisionNode node;
-    node.box = hull(result_.nodes[left].box, result_.nodes[right].box);
-    node.left = left;
-    node.right = right;
-    result_.nodes.push_back(node);
-    return static_cast<std::uint32_t>(result_.nodes.size() - 1);
+    return {join(result_, children[0], children[1]), cost};
   }
 
   Plane choose_plane(const Work& work) {
@@ -275,31 +292,122 @@ class Subdivider {
 
   const CsgTree& tree_;
   const CellScale& scale_;
-  LeafRegions leaf_regions_;
+  const LeafRegions& leaf_regions_;
   const BuildQuality& quality_;
-  Subdivision& result_;
+  Subdivision result_;
   std::vector<Region> regions_;
-  std::size_t most_symbols_;  // memory stays in proportion to the scene
+  std::size_t most_symbols_ = ~std::size_t{0};
   Folder folder_;
   LocalExpression trial_;
   std::vector<double> positions_;
 };
 
+// The top of the tree, where every split is kept; parts with few enough leaves are tasks.
+class Top {
+ public:
+  explicit Top(Subdivider& subdivider) : subdivider_(subdivider) {}
+
+  static constexpr std::uint32_t task_bit = 0x80000000, nothing = ~std::uint32_t{0};
+
+  /// @return a node, or a task with its bit
+  std::uint32_t grow(Work&& work) {
+    std::array<Work, 2> parts;
+    if (work.leaves.size() <= Cell::most_followed || !subdivider_.split(work, parts)) {
+      tasks_.push_back(std::move(work));
+      return static_cast<std::uint32_t>(tasks_.size() - 1) | task_bit;
+    }
+    work = {};
+    std::uint32_t children[2] = {nothing, nothing};
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (!parts[side].leaves.empty()) children[side] = grow(std::move(parts[side]));
+    }
+    nodes_.push_back({children[0], children[1]});
+    return static_cast<std::uint32_t>(nodes_.size() - 1);
+  }
+
+  std::vector<Work>& tasks() { return tasks_; }
+
+  /// Joins what the tasks have built, given the roots that they have in `tree`.
+  std::uint32_t assemble(std::uint32_t root, const std::vector<std::uint32_t>& task_roots, Subdivision& tree) const {
+    if (root == nothing) return SubdivisionNode::none;
+    if ((root & task_bit) != 0) return task_roots[root & ~task_bit];
+    // Children come before their parents.
+    std::vector<std::uint32_t> made;
+    const auto find = [&](std::uint32_t child) {
+      if (child == nothing) return SubdivisionNode::none;
+      return (child & task_bit) != 0 ? task_roots[child & ~task_bit] : made[child];
+    };
+    for (const auto& [left, right] : nodes_) made.push_back(join(tree, find(left), find(right)));
+    return made[root];
+  }
+
+ private:
+  Subdivider& subdivider_;
+  std::vector<Work> tasks_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> nodes_;
+};
+
+// Adds one part's nodes, cells and symbols behind those of the others.
+// @return the part's root there
+std::uint32_t append(const Subdivision& part, Subdivision& whole) {
+  constexpr std::uint32_t none = SubdivisionNode::none;
+  const auto nodes = static_cast<std::uint32_t>(whole.nodes.size()),
+             cells = static_cast<std::uint32_t>(whole.cells.size()),
+             symbols = static_cast<std::uint32_t>(whole.symbols.size());
+  const auto moved = [](std::uint32_t index, std::uint32_t by) { return index == none ? none : index + by; };
+  for (SubdivisionNode node : part.nodes) {
+    node.cell = moved(node.cell, cells);
+    node.left = moved(node.left, nodes);
+    node.right = moved(node.right, nodes);
+    whole.nodes.push_back(node);
+  }
+  for (BoundaryCell cell : part.cells) {
+    cell.first_symbol += symbols;
+    whole.cells.push_back(cell);
+  }
+  whole.symbols.insert(whole.symbols.end(), part.symbols.begin(), part.symbols.end());
+  whole.depth = std::max(whole.depth, part.depth);
+  return moved(part.root, nodes);
+}
+
 }  // namespace
 
 Subdivision subdivide(const CsgTree& tree, const CellScale& scale, const Box3& box, const BuildQuality& quality,
                       int threads) {
+  const LeafRegions leaf_regions(tree);
   Subdivision result;
-  Work whole;
+  Work whole, root;
   whole.expression = whole_expression(tree);
+  whole.depth = -1;
   list_leaves(whole);
-  Subdivider subdivider(tree, scale, quality, result);
-  Work root;
-  (void)threads;
-  if (subdivider.restrict_to(box, whole, root)) {
-    root.depth = 0;
-    result.root = subdivider.build(root).first;
+  Subdivider subdivider(tree, scale, leaf_regions, quality);
+  if (!subdivider.restrict_to(box, whole, root)) return result;
+  whole = {};
+  Top top(subdivider);
+  const std::uint32_t top_root = top.grow(std::move(root));
+
+  // Memory stays in proportion to the scene, shared out by the leaves of each part.
+  std::size_t leaves = 0;
+  for (const Work& task : top.tasks()) leaves += task.leaves.size();
+  const double symbols_per_leaf =
+      (0x1p20 + 48.0 * static_cast<double>(tree.leaves.size())) / static_cast<double>(std::max<std::size_t>(leaves, 1));
+
+  std::vector<std::unique_ptr<Subdivider>> workers(static_cast<std::size_t>(std::max(threads, 1)));
+  std::vector<Subdivision> parts(top.tasks().size());
+  parallel_for(parts.size(), threads, [&](std::size_t task, int worker) {
+    auto& own = workers[static_cast<std::size_t>(worker)];
+    if (!own) own = std::make_unique<Subdivider>(tree, scale, leaf_regions, quality);
+    Work& work = top.tasks()[task];
+    const double most = symbols_per_leaf * static_cast<double>(work.leaves.size());
+    parts[task] = own->subdivide(work, static_cast<std::size_t>(most));
+    work = {};
+  });
+  std::vector<std::uint32_t> roots;
+  for (Subdivision& part : parts) {
+    roots.push_back(append(part, result));
+    part = {};
   }
+  result.root = top.assemble(top_root, roots, result);
   return result;
 }
 

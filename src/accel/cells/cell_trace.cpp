@@ -44,8 +44,8 @@ HWY_INLINE float Inverse(double direction) {
 // One ray at a time.
 class SingleTracer {
  public:
-  SingleTracer(const CellTree& cells, const CsgTree& tree, CellScratch& scratch)
-      : cells_(cells), tree_(tree), scratch_(scratch) {}
+  SingleTracer(const CellTree& cells, const CsgTree& tree, CellScratch& scratch, bool faces_wanted)
+      : cells_(cells), tree_(tree), scratch_(scratch), faces_wanted_(faces_wanted) {}
 
   CellAnswer Trace(const RayQuery& query, TraversalCounters& counters) {
     query_ = &query;
@@ -89,6 +89,7 @@ class SingleTracer {
     const double inverse_square = 1 / square;
     length_ = std::sqrt(square);
     resolution_ = cells_.scale.resolution / length_;
+    together_ = tree_.tolerance.distance / length_;
     const One one;
     ray_.origin = {hn::Set(one, o.x), hn::Set(one, o.y), hn::Set(one, o.z)};
     ray_.direction = {hn::Set(one, d.x), hn::Set(one, d.y), hn::Set(one, d.z)};
@@ -258,9 +259,28 @@ class SingleTracer {
         next[i] = (state >> i & 1) != 0 ? leave[i] : never;
       }
       if ((table >> state & 1) == before) continue;
-      for (std::uint32_t i = 0; i < count; ++i) {
-        if (std::fabs(enter[i] - t) <= near && (i != first || enter[i] != t)) return Outcome::unsure;
-        if (std::fabs(leave[i] - t) <= near && (i != first || leave[i] != t)) return Outcome::unsure;
+      Group group;
+      if (!FindGroup(count, enter, leave, t, group)) return Outcome::unsure;
+      if (group.size > 1) {
+        if (faces_wanted_) return Outcome::unsure;
+        const std::uint32_t after = group.After(state);
+        if ((table >> after & 1) == before) {
+          // The faces that coincide cancel.
+          for (std::uint32_t k = 0; k < group.size; ++k) {
+            const std::uint32_t i = group.ends[k].place;
+            next[i] = group.ends[k].entering ? leave[i] : never;
+          }
+          state = after;
+          continue;
+        }
+        const Group::End shown = group.Shown(table, after);
+        answer.t = group.FirstChange(table, after).t;
+        answer.leaf_entering = shown.entering;
+        answer.before = before != 0;
+        answer.surface = {
+            cell.leaves[shown.place],
+            static_cast<std::uint32_t>(shown.entering ? enter_face[shown.place] : leave_face[shown.place])};
+        return Outcome::met;
       }
       answer.t = t;
       answer.leaf_entering = (state >> first & 1) != 0;
@@ -269,6 +289,92 @@ class SingleTracer {
                         static_cast<std::uint32_t>(answer.leaf_entering ? enter_face[first] : leave_face[first])};
       return Outcome::met;
     }
+  }
+
+  // Crossings that certainly form one run: their bounds are at least the scene's tolerance, they are no further apart.
+  struct Group {
+    struct End {
+      double t = 0;
+      std::uint32_t place = 0;
+      bool entering = false;
+    };
+    End ends[Cell::most_tabled];
+    std::uint32_t size = 0;
+
+    // Keeps the order of the classifier.
+    void Add(const End& end) {
+      std::uint32_t place = size++;
+      for (; place > 0; --place) {
+        const End& other = ends[place - 1];
+        if (other.t < end.t || (other.t == end.t && other.place < end.place)) break;
+        ends[place] = other;
+      }
+      ends[place] = end;
+    }
+
+    // The state behind them all, from one in which some of them have been crossed.
+    std::uint32_t After(std::uint32_t state) const {
+      for (std::uint32_t k = 0; k < size; ++k) {
+        const std::uint32_t bit = 1U << ends[k].place;
+        state = ends[k].entering ? state | bit : state & ~bit;
+      }
+      return state;
+    }
+
+    std::uint32_t Before(std::uint32_t after) const {
+      for (std::uint32_t k = 0; k < size; ++k) after ^= 1U << ends[k].place;
+      return after;
+    }
+
+    const End& FirstChange(std::uint64_t table, std::uint32_t after) const {
+      std::uint32_t state = Before(after);
+      const std::uint64_t value = table >> state & 1;
+      for (std::uint32_t k = 0; k < size; ++k) {
+        state ^= 1U << ends[k].place;
+        if ((table >> state & 1) != value) return ends[k];
+      }
+      return ends[0];
+    }
+
+    // The first leaf whose bit alone changes the value right before the run or right after it (Classifier).
+    const End& Shown(std::uint64_t table, std::uint32_t after) const {
+      std::uint32_t state = Before(after), begin = state, end = state;
+      bool changed = false;
+      for (std::uint32_t k = 0; k < size; ++k) {
+        const std::uint32_t crossed = state ^ 1U << ends[k].place;
+        if ((table >> crossed & 1) != (table >> state & 1)) {
+          if (!changed) begin = state;
+          changed = true;
+          end = crossed;
+        }
+        state = crossed;
+      }
+      const End* shown = nullptr;
+      for (std::uint32_t k = 0; k < size; ++k) {
+        const std::uint32_t bit = 1U << ends[k].place;
+        const bool alone =
+            (table >> (begin ^ bit) & 1) != (table >> begin & 1) || (table >> (end ^ bit) & 1) != (table >> end & 1);
+        if (alone && (shown == nullptr || ends[k].place < shown->place)) shown = &ends[k];
+      }
+      return shown != nullptr ? *shown : FirstChange(table, after);
+    }
+  };
+
+  // Collects the crossings at t; false when some may or may not belong to them.
+  bool FindGroup(std::uint32_t count, const double* enter, const double* leave, double t, Group& group) const {
+    const double near = 2 * resolution_;
+    const auto collect = [&](double end, std::uint32_t place, bool entering) {
+      const double apart = std::fabs(end - t);
+      if (!(apart <= near)) return true;
+      if (!(apart <= together_)) return false;
+      group.Add({end, place, entering});
+      return true;
+    };
+    for (std::uint32_t i = 0; i < count; ++i) {
+      // A chord is longer than four resolutions, so one of its ends at most is near.
+      if (!collect(enter[i], i, true) || !collect(leave[i], i, false)) return false;
+    }
+    return true;
   }
 
   // The start: of a leaf nothing but the face that the ray starts on may lie there.
@@ -336,6 +442,8 @@ class SingleTracer {
   double start_ = 0;
   double length_ = 1;
   double resolution_ = 0;
+  double together_ = 0;
+  bool faces_wanted_;
   BoxRay8 box_ray_{};
   RayLanes<One> ray_{};
   std::uint64_t tests_ = 0;
@@ -662,9 +770,10 @@ class PacketTracer {
 };
 
 void TraceFirst(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries,
-                std::span<CellAnswer> answers, CellScratch& scratch, TraversalStatistics& statistics) {
+                std::span<CellAnswer> answers, bool faces_wanted, CellScratch& scratch,
+                TraversalStatistics& statistics) {
   scratch.runs.clear();
-  SingleTracer single(cells, tree, scratch);
+  SingleTracer single(cells, tree, scratch, faces_wanted);
   constexpr std::size_t width = PacketTracer::width;
   std::size_t i = 0;
   if (width >= 4 && queries.size() >= width) {
@@ -690,8 +799,9 @@ namespace tenon::cells {
 HWY_EXPORT(TraceFirst);
 
 void trace_first(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries,
-                 std::span<CellAnswer> answers, CellScratch& scratch, TraversalStatistics& statistics) {
-  HWY_DYNAMIC_DISPATCH(TraceFirst)(cells, tree, queries, answers, scratch, statistics);
+                 std::span<CellAnswer> answers, bool faces_wanted, CellScratch& scratch,
+                 TraversalStatistics& statistics) {
+  HWY_DYNAMIC_DISPATCH(TraceFirst)(cells, tree, queries, answers, faces_wanted, scratch, statistics);
 }
 
 }  // namespace tenon::cells

@@ -97,6 +97,7 @@ struct CellScratch {
 /// Follows rays to their first boundaries with the widest instructions that the machine has: neighbours that go the
 /// same way together, the others one by one.
 void trace_first(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries,
-                 std::span<CellAnswer> answers, CellScratch& scratch, TraversalStatistics& statistics);
+                 std::span<CellAnswer> answers, bool faces_wanted, CellScratch& scratch,
+                 TraversalStatistics& statistics);
 
 }  // namespace tenon::cells

@@ -32,7 +32,7 @@ class Cells final : public Accelerator {
   void first_hits(std::span<const RayQuery> queries, std::span<Hit> hits, TraceContext& base) const override {
     auto& context = static_cast<Context&>(base);
     context.answers.resize(queries.size());
-    trace(queries, context.answers, context);
+    trace(queries, context.answers, true, context);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const CellAnswer& answer = context.answers[i];
       if (answer.kind == CellAnswer::Kind::nothing) {
@@ -49,7 +49,7 @@ class Cells final : public Accelerator {
                         TraceContext& base) const override {
     auto& context = static_cast<Context&>(base);
     context.answers.resize(queries.size());
-    trace(queries, context.answers, context);
+    trace(queries, context.answers, false, context);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const CellAnswer& answer = context.answers[i];
       boundaries[i] = RayBoundary{};
@@ -66,7 +66,7 @@ class Cells final : public Accelerator {
   bool occluded(const RayQuery& query, TraceContext& base) const override {
     auto& context = static_cast<Context&>(base);
     CellAnswer answer;
-    trace({&query, 1}, {&answer, 1}, context);
+    trace({&query, 1}, {&answer, 1}, false, context);
     if (answer.kind != CellAnswer::Kind::unsure) return answer.kind == CellAnswer::Kind::boundary;
     bool is_occluded = false;
     exact(context, [&](const Accelerator& exact, TraceContext& exact_context) {
@@ -78,7 +78,7 @@ class Cells final : public Accelerator {
   bool any_hit(const RayQuery& query, StopsRay stops, TraceContext& base) const override {
     auto& context = static_cast<Context&>(base);
     CellAnswer answer;
-    trace({&query, 1}, {&answer, 1}, context);
+    trace({&query, 1}, {&answer, 1}, true, context);
     if (answer.kind == CellAnswer::Kind::nothing) return false;
     Hit first;
     bool asked = false;
@@ -120,13 +120,14 @@ class Cells final : public Accelerator {
     std::unique_ptr<TraceContext> exact;
   };
 
-  void trace(std::span<const RayQuery> queries, std::span<CellAnswer> answers, Context& context) const {
+  void trace(std::span<const RayQuery> queries, std::span<CellAnswer> answers, bool faces_wanted,
+             Context& context) const {
     for (const RayQuery& query : queries) ++context.statistics[query.kind].rays;
     if (cells_.empty()) {
       std::fill(answers.begin(), answers.end(), CellAnswer{});
       return;
     }
-    trace_first(cells_, tree_, queries, answers, context.scratch, context.statistics);
+    trace_first(cells_, tree_, queries, answers, faces_wanted, context.scratch, context.statistics);
   }
 
   // The boundary as the classifier would have found it; false when its material is not known here.
