@@ -44,6 +44,10 @@ class Pusher {
       diagnostics_.warn(std::to_string(flattened_) +
                         " primitives are flattened by their transformations and make no solid; look for a zero scale");
     }
+    if (subtracted_surfaces_ > 0) {
+      diagnostics_.warn(std::to_string(subtracted_surfaces_) +
+                        " surfaces are subtracted and left out; a surface has no inside that could be taken away");
+    }
     double largest = 0;
     for (const Leaf& leaf : tree_.leaves) {
       if (leaf.bounds.is_bounded()) largest = std::max(largest, leaf.bounds.largest_coordinate());
@@ -128,6 +132,19 @@ class Pusher {
     tree_.nodes.push_back(node);
   }
 
+  // Under an odd number of complements, a difference's second operand being one.
+  bool is_subtracted() const {
+    bool subtracted = false;
+    for (const Frame& frame : frames_) {
+      const auto* operation = std::get_if<SetOperation>(&frame.node->content);
+      if (operation == nullptr) continue;
+      // The child being visited is the one before next_child.
+      const bool is_tool = *operation == SetOperation::difference && frame.next_child > 1;
+      subtracted ^= is_tool || *operation == SetOperation::complement;
+    }
+    return subtracted;
+  }
+
   void add_leaf(PrimitiveId primitive) {
     const Attributes& attributes = attributes_.back();
     const PrimitiveStore& store = graph_.primitives;
@@ -135,8 +152,9 @@ class Pusher {
     const CsgNodeId node_id{tree_.nodes.size()};
     CsgNode node;
     operands_.push_back(node_id);
-    if (!placement) {
-      ++flattened_;
+    const bool subtracted_surface = is_surface(store, primitive) && is_subtracted();
+    if (!placement || subtracted_surface) {
+      ++(subtracted_surface ? subtracted_surfaces_ : flattened_);
       tree_.nodes.push_back(node);  // a union of nothing
       return;
     }
@@ -166,6 +184,7 @@ class Pusher {
   std::vector<Attributes> attributes_;
   std::vector<CsgNodeId> operands_;
   std::size_t flattened_ = 0;
+  std::size_t subtracted_surfaces_ = 0;
 };
 
 }  // namespace

@@ -71,15 +71,40 @@ class CsgPrinter {
   void primitive(PrimitiveId id) {
     const PrimitiveKind& kind = model_.graph.primitives.kind(id);
     const std::vector<FieldValue> values = model_.graph.primitives.values(id);
+    if (const auto* shared = values.empty() ? nullptr : std::get_if<SharedMesh>(&values.front())) return mesh(**shared);
     out_ += kind.scad_name;
     out_ += '(';
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (i > 0) out_ += ", ";
       out_ += kind.fields[i].name;
       out_ += " = ";
-      std::visit([&](const auto& value) { print(value); }, values[i]);
+      std::visit(
+          [&](const auto& value) {
+            if constexpr (!std::is_same_v<std::decay_t<decltype(value)>, SharedMesh>) print(value);
+          },
+          values[i]);
     }
     out_ += ");\n";
+  }
+
+  // As it was made, or with its triangles; the scene language wants faces clockwise as seen from outside.
+  void mesh(const TriangleMesh& mesh) {
+    if (!mesh.source.empty()) {
+      out_ += mesh.source + ";\n";
+      return;
+    }
+    out_ += "polyhedron(points = [";
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+      if (i > 0) out_ += ", ";
+      print(mesh.vertices[i]);
+    }
+    out_ += "], faces = [";
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      if (i > 0) out_ += ", ";
+      const auto [a, b, c] = mesh.triangles[i];
+      out_ += '[' + std::to_string(a) + ", " + std::to_string(c) + ", " + std::to_string(b) + ']';
+    }
+    out_ += "]);\n";
   }
 
   void matrix(const Affine3& map) {

@@ -6,6 +6,7 @@
 #include "primitive/cylinder.h"
 #include "primitive/half_space.h"
 #include "primitive/hyperboloid.h"
+#include "primitive/mesh.h"
 #include "primitive/paraboloid.h"
 #include "primitive/prism.h"
 #include "primitive/revolution.h"
@@ -19,6 +20,6 @@ struct PrimitiveList {};
 
 /// Every kind of primitive, in the order of PrimitiveStore::kinds(). For the dispatch unit and the store only.
 using AllPrimitives = PrimitiveList<Sphere, Box, Cylinder, Cone, Torus, Hyperboloid, Paraboloid, HalfSpace,
-                                    ConvexPolyhedron, Prism, Revolution>;
+                                    ConvexPolyhedron, Prism, Revolution, Mesh>;
 
 }  // namespace tenon

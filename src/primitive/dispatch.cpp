@@ -96,6 +96,13 @@ Vec3 normal(const PrimitiveStore& store, PrimitiveId id, const Vec3& point, std:
   return visit(store.lists(), id, [&](const auto& primitive) { return primitive.normal(point, face); });
 }
 
+bool is_surface(const PrimitiveStore& store, PrimitiveId id) {
+  return visit(store.lists(), id, [](const auto& primitive) {
+    if constexpr (requires { primitive.hull; }) return primitive.hull;
+    return false;
+  });
+}
+
 double cost(const PrimitiveStore& store, PrimitiveId id) {
   return visit(store.lists(), id, [](const auto& primitive) { return primitive.relative_cost; });
 }

@@ -32,6 +32,9 @@ Region classify(const PrimitiveStore& store, PrimitiveId id, const LocalBox& box
 /// Outward normal at a point of the given face, local frame, any length but zero.
 Vec3 normal(const PrimitiveStore& store, PrimitiveId id, const Vec3& point, std::uint32_t face);
 
+/// Whether the primitive is a surface without inside, a probe that never cuts (Crossing::surface).
+bool is_surface(const PrimitiveStore& store, PrimitiveId id);
+
 /// Relative cost of spans(), for the surface area heuristic; a sphere's is 1.
 double cost(const PrimitiveStore& store, PrimitiveId id);
 

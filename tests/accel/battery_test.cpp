@@ -71,7 +71,7 @@ TEST(BatteryControl, AMissingLeafIsSeen) {
 }
 
 TEST(BatteryControl, ALateLeafIsSeen) {
-  const Verdict verdict = judge_broken<SettlesTooEarly>(gallery::random_scene(2, 24, 1.5));
+  const Verdict verdict = judge_broken<SettlesTooEarly>(gallery::random_scene(3, 60, 3));
   EXPECT_GT(verdict.mismatches, 0u);
   EXPECT_GT(verdict.seam_faults, 0u);
 }

@@ -3,6 +3,7 @@
 #include <random>
 #include <vector>
 
+#include "support/meshes.h"
 #include "support/random_outline.h"
 #include "support/scene_builder.h"
 
@@ -34,6 +35,11 @@ class Draw {
 
 /// A value that some primitive may take for the field; add() refuses what is none.
 inline FieldValue random_value(Draw& draw, const FieldInfo& field) {
+  if (field.name == "hull") return false;  // a solid
+  if (std::holds_alternative<SharedMesh>(field.fallback)) {
+    if (draw.one_in(3)) return meshes::share(meshes::ring(0.8, 0.35, 3 + draw.below(6), 3 + draw.below(4)));
+    return meshes::share(meshes::star(draw.below(3), [&](const Vec3&) { return draw.real(0.6, 1.2); }));
+  }
   if (std::holds_alternative<bool>(field.fallback)) return draw.one_in(2);
   if (std::holds_alternative<Vec3>(field.fallback)) return draw.vector(draw.one_in(2) ? -1.0 : 0.3, 1.5);
   if (std::holds_alternative<double>(field.fallback)) return draw.real(0.2, 1.2);

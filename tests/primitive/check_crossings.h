@@ -138,6 +138,10 @@ inline std::string describe(const std::vector<FieldValue>& values) {
         text << '}';
       }
     }
+    if (const auto* mesh = std::get_if<SharedMesh>(&value)) {
+      for (const Vec3& v : (*mesh)->vertices) text << "\n  {" << v.x << ", " << v.y << ", " << v.z << "},";
+      for (const auto& [a, b, c] : (*mesh)->triangles) text << " {" << a << ", " << b << ", " << c << "},";
+    }
   }
   return text.str();
 }

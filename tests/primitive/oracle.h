@@ -149,10 +149,44 @@ struct Definitions {
     return outline_contains(std::get<Outline>(v[0]), exact::square_root(across(p)), p.z);
   }
 
+  // The planes of the triangles, outward; which of them matter where is for mesh_contains() to say.
+  static void mesh(const Values& v, const Vec<T>& p, Faces<T>& f) {
+    const TriangleMesh& m = *std::get<SharedMesh>(v[0]);
+    for (std::size_t i = 0; i < m.triangles.size(); ++i) {
+      const auto [a, b, c] = m.corners(i);
+      const Vec<T> n = normal_of(Vec<T>(a), Vec<T>(b), Vec<T>(c));
+      f.push_back(dot(n, p - Vec<T>(a)));
+    }
+  }
+  static Vec<T> normal_of(const Vec<T>& a, const Vec<T>& b, const Vec<T>& c) { return cross(b - a, c - a); }
+  static Vec<T> cross(const Vec<T>& a, const Vec<T>& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
+  // How often the mesh winds around a point: what a half-line from it, in a direction that no scene has, crosses.
+  static bool mesh_contains(const Values& v, const Vec<T>& p) {
+    const TriangleMesh& m = *std::get<SharedMesh>(v[0]);
+    const Vec<T> d{T(0.5377261930183), T(-0.2641873309437), T(0.8006420971529)};
+    int winding = 0;
+    for (std::size_t i = 0; i < m.triangles.size(); ++i) {
+      const auto [a_, b_, c_] = m.corners(i);
+      const Vec<T> a = Vec<T>(a_) - p, b = Vec<T>(b_) - p, c = Vec<T>(c_) - p;
+      const T u = dot(d, cross(b, c)), w = dot(d, cross(c, a)), q = dot(d, cross(a, b));
+      const bool all_positive = u > 0 && w > 0 && q > 0, all_negative = u < 0 && w < 0 && q < 0;
+      if (!all_positive && !all_negative) continue;
+      const Vec<T> n = normal_of(a, b, c);
+      const T t = dot(n, a) / dot(n, d);
+      if (t > 0) winding += all_positive ? 1 : -1;
+    }
+    return winding > 0;
+  }
+
   /// Whether a point is inside, for kinds whose faces do not all bound it everywhere; null for the others.
   using Membership = bool (*)(const Values&, const Vec<T>&);
   static Membership find_membership(std::string_view kind) {
-    return kind == "prism" ? is_in_prism : kind == "revolution" ? is_in_revolution : nullptr;
+    return kind == "prism"        ? is_in_prism
+           : kind == "revolution" ? is_in_revolution
+           : kind == "mesh"       ? mesh_contains
+                                  : nullptr;
   }
 
   static Definition find(std::string_view kind) {
@@ -168,6 +202,7 @@ struct Definitions {
         {"convex_polyhedron", convex_polyhedron},
         {"prism", prism},
         {"revolution", revolution},
+        {"mesh", mesh},
     };
     const auto found = all.find(kind);
     return found == all.end() ? nullptr : found->second;

@@ -8,6 +8,8 @@
 
 #include "primitive/dispatch.h"
 #include "primitive/oracle.h"
+#include "support/meshes.h"
+#include "support/random.h"
 #include "support/random_outline.h"
 
 namespace tenon {
@@ -41,6 +43,11 @@ class RandomValues {
     std::vector<FieldValue> values;
     for (const FieldInfo& field : kind.fields) {
       unit_ = field.unit;
+      // A surface has no inside; tests of its own ask what it promises.
+      if (field.name == "hull") {
+        values.emplace_back(false);
+        continue;
+      }
       values.push_back(std::visit([this](const auto& fallback) { return FieldValue(like(fallback)); }, field.fallback));
     }
     return values;
@@ -73,6 +80,22 @@ class RandomValues {
     return planes;
   }
   Outline like(const Outline&) { return RandomOutline(random_, length()).draw(); }
+  // A bumpy ball, a ring or a box, stretched and somewhere.
+  SharedMesh like(const SharedMesh&) {
+    const Vec3 offset = random_.chance(0.5) ? Vec3{} : length() * random_.in_cube();
+    TriangleMesh mesh;
+    switch (random_.below(3)) {
+      case 0:
+        mesh = meshes::star(random_.below(3), [&](const Vec3&) { return random_.uniform(0.4, 1); });
+        break;
+      case 1:
+        mesh = meshes::ring(1, 0.4, 3 + random_.below(5), 3 + random_.below(4));
+        break;
+      default:
+        mesh = meshes::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+    }
+    return meshes::share(meshes::scaled(std::move(mesh), {length(), length(), length()}, offset));
+  }
   double length() { return random_.chance(0.1) ? random_.magnitude(-3, 3) : scale_ * random_.magnitude(-0.7, 0.7); }
 
   Random& random_;

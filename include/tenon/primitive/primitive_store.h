@@ -12,6 +12,7 @@
 #include "tenon/base/id.h"
 #include "tenon/math/vec3.h"
 #include "tenon/primitive/outline.h"
+#include "tenon/primitive/triangle_mesh.h"
 
 namespace tenon {
 
@@ -27,8 +28,11 @@ struct Plane {
   friend constexpr bool operator==(const Plane&, const Plane&) = default;
 };
 
+/// Shared by every primitive that is made of it, and never null in one.
+using SharedMesh = std::shared_ptr<const TriangleMesh>;
+
 /// The value of one field of a primitive.
-using FieldValue = std::variant<double, bool, Vec3, std::vector<Plane>, Outline>;
+using FieldValue = std::variant<double, bool, Vec3, std::vector<Plane>, Outline, SharedMesh>;
 
 /// One parameter of a primitive: parser, printer and documentation derive from it.
 struct FieldInfo {

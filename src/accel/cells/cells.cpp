@@ -188,6 +188,7 @@ bool is_plain(const CsgTree& tree, const Box3& enclosure) {
   if (tree.has_media || !(enclosure.is_bounded() || enclosure.is_empty())) return false;
   for (const Leaf& leaf : tree.leaves) {
     if (leaf.priority != tree.leaves.front().priority) return false;
+    if (is_surface(tree.primitives, leaf.primitive)) return false;
   }
   return true;
 }

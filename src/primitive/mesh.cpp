@@ -1,0 +1,147 @@
+#include "primitive/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "primitive/box_tests.h"
+#include "primitive/check.h"
+#include "primitive/mesh_edges.h"
+
+namespace tenon {
+
+namespace {
+
+// Within these no product of three coordinates, nor the tail of one, leaves the range of double, and boxes fit a float.
+constexpr double smallest_mesh = 1e-30, largest_mesh = 1e30;
+
+std::string check_numbers(const TriangleMesh& mesh) {
+  const std::size_t count = mesh.vertices.size();
+  double largest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double coordinate = max_component(abs(mesh.vertices[i]));
+    if (!std::isfinite(dot(mesh.vertices[i], {0, 0, 0}))) return "vertex " + std::to_string(i) + " is not finite";
+    largest = std::max(largest, coordinate);
+  }
+  if (mesh.triangles.empty()) return "it has no triangles";
+  if (largest < smallest_mesh) return "it is too small to compute with; coordinates start at 1e-30";
+  if (largest > largest_mesh) return "it is too large to compute with; coordinates end at 1e30";
+  if (mesh.corner_normals.size() != (mesh.normals.empty() ? 0 : mesh.triangles.size())) {
+    return "its normals do not fit its triangles";
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::string triangle = "triangle " + std::to_string(t);
+      if (mesh.triangles[t][i] >= count) return triangle + " names a vertex that is not there";
+      if (!mesh.normals.empty() && mesh.corner_normals[t][i] >= mesh.normals.size()) {
+        return triangle + " names a normal that is not there";
+      }
+    }
+  }
+  return {};
+}
+
+// n·p over three points.
+Extent extent_along(const std::array<Vec3, 3>& p, const Vec3& n) {
+  const double a = dot(n, p[0]), b = dot(n, p[1]), c = dot(n, p[2]);
+  const double least = std::min({a, b, c}), greatest = std::max({a, b, c});
+  const Vec3 reach = max(abs(p[0]), max(abs(p[1]), abs(p[2])));
+  return {0.5 * least + 0.5 * greatest, 0.5 * (greatest - least) + gamma(6) * dot(abs(n), reach)};
+}
+
+bool overlap(const Extent& a, const Extent& b) {
+  return a.least() <= b.greatest() && b.least() <= a.greatest();
+}
+
+Box3 box_around(const std::array<Vec3, 3>& p) {
+  return {min(p[0], min(p[1], p[2])), max(p[0], max(p[1], p[2]))};
+}
+
+}  // namespace
+
+SharedMesh Mesh::unit_tetrahedron() {
+  static const SharedMesh mesh = std::make_shared<const TriangleMesh>(TriangleMesh{
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}, {}, {}, {}});
+  return mesh;
+}
+
+void Mesh::prepare() {
+  if (!mesh || !check_numbers(*mesh).empty()) return;
+  auto index = std::make_shared<Index>();
+  index->bvh = MeshBvh(*mesh);
+  for (const TriangleMesh::Corners& corners : mesh->triangles) {
+    for (const std::uint32_t v : corners) index->bounds = tenon::hull(index->bounds, mesh->vertices[v]);
+  }
+  index_ = std::move(index);
+}
+
+std::string Mesh::check() const {
+  if (!mesh) return "mesh is missing";
+  if (std::string problem = check_numbers(*mesh); !problem.empty()) return "mesh makes no solid: " + problem;
+  if (hull) return {};
+  if (const auto open = find_open_edges(mesh->triangles)) {
+    return "mesh makes no solid: " + std::to_string(open->count) +
+           " of its edges are not run along as often in one direction as in the other";
+  }
+  return {};
+}
+
+Vec3 Mesh::flat_normal(std::uint32_t face) const {
+  const auto [a, b, c] = mesh->corners(face);
+  const Vec3 n = cross(b - a, c - a);
+  return n == Vec3{} ? Vec3{0, 0, 1} : n;
+}
+
+Vec3 Mesh::normal(const Vec3& point, std::uint32_t face) const {
+  const Vec3 flat = flat_normal(face);
+  if (mesh->normals.empty()) return flat;
+  const auto [a, b, c] = mesh->corners(face);
+  // Barycentric coordinates by areas; of a triangle without any, one corner's normal will do.
+  const double area = dot(flat, flat);
+  Vec3 weight{dot(flat, cross(b - point, c - point)), dot(flat, cross(c - point, a - point)),
+              dot(flat, cross(a - point, b - point))};
+  weight = area > 0 ? max(weight / area, Vec3{}) : Vec3{1, 0, 0};
+  const TriangleMesh::Corners& n = mesh->corner_normals[face];
+  const Vec3 smooth = weight.x * normalize(mesh->normals[n[0]]) + weight.y * normalize(mesh->normals[n[1]]) +
+                      weight.z * normalize(mesh->normals[n[2]]);
+  return dot(smooth, flat) > 0 ? smooth : flat;
+}
+
+// The separating axes of two convex bodies: the faces of each, and the cross products of their edges.
+bool Mesh::meets(const LocalBox& box, std::uint32_t triangle) const {
+  const std::array<Vec3, 3> p = mesh->corners(triangle);
+  if (!box_around(p).overlaps(box.bounds)) return false;
+  const auto separates = [&](const Vec3& n) { return !overlap(extent_along(box, n), extent_along(p, n)); };
+  const std::array<Vec3, 3> edges{p[1] - p[0], p[2] - p[1], p[0] - p[2]};
+  if (separates(cross(edges[0], edges[1]))) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (separates(cross(box.half_edges[(i + 1) % 3], box.half_edges[(i + 2) % 3]))) return false;
+    for (const Vec3& edge : edges) {
+      if (separates(cross(box.half_edges[i], edge))) return false;
+    }
+  }
+  return true;
+}
+
+Region Mesh::classify(const LocalBox& box) const {
+  if (!index_->bounds.overlaps(box.bounds)) return Region::outside;
+  if (!index_->bvh.walk(box.bounds, [&](std::uint32_t t) { return !meets(box, t); })) return Region::straddles;
+  if (hull) return Region::outside;
+  // No face comes near the box, so its middle tells: by a line through it, of which nothing near it may be in doubt.
+  Spans crossings;
+  for (int axis = 0; axis < 3; ++axis) {
+    LocalRay ray;
+    ray.origin = box.center;
+    ray.direction[axis] = 1;
+    crossings.clear();
+    spans(ray, crossings);
+    bool inside = false, certain = true;
+    for (const Crossing& c : crossings) {
+      inside ^= c.t <= 0;
+      certain = certain && std::fabs(c.t) > c.bound;
+    }
+    if (certain) return inside ? Region::inside : Region::outside;
+  }
+  return Region::straddles;
+}
+
+}  // namespace tenon

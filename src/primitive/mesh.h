@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+#include "primitive/concept.h"
+#include "primitive/mesh_bvh.h"
+
+namespace tenon {
+
+/// A triangle mesh: the solid that a closed one encloses (Zajíček 2012, chapter 3), or the bare surface of any.
+///
+/// Where a closed mesh overlaps itself the solid is the union: what it winds around at least once.
+class Mesh {
+ public:
+  SharedMesh mesh = unit_tetrahedron();
+  bool hull = false;
+
+  static constexpr std::string_view name = "mesh", scad_name = "polyhedron";
+  static constexpr std::string_view doc = "The solid inside a closed mesh of triangles, or the surface of an open one.";
+  static constexpr bool bounded = true;
+  static constexpr double relative_cost = 12;
+  static constexpr auto fields() {
+    return std::tuple{Field{"mesh", Unit::none, &Mesh::mesh, "vertices and triangles"},
+                      Field{"hull", Unit::none, &Mesh::hull, "the surface alone, which has no inside"}};
+  }
+
+  void prepare();
+  std::string check() const;
+
+  double support(const Vec3& n) const { return index_->bvh.support(*mesh, n); }
+
+  /// Every crossing of the line with the solid, whatever it grazes: which triangles the line meets is decided exactly
+  /// (edge_sign), so each edge and each vertex is crossed once or not at all. Faces: the triangles, by index.
+  void spans(const LocalRay& ray, Spans& out) const;
+  Region classify(const LocalBox& box) const;
+  /// Between the corners' normals where the mesh has them.
+  Vec3 normal(const Vec3& point, std::uint32_t face) const;
+
+ private:
+  // What follows from the mesh; shared by all copies.
+  struct Index {
+    MeshBvh bvh;
+    Box3 bounds;
+  };
+  static SharedMesh unit_tetrahedron();
+  Vec3 flat_normal(std::uint32_t face) const;
+  bool meets(const LocalBox& box, std::uint32_t triangle) const;
+
+  std::shared_ptr<const Index> index_;
+};
+
+}  // namespace tenon

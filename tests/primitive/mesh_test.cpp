@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+
+#include "primitive/check_crossings.h"
+#include "primitive/dispatch.h"
+#include "primitive/edge_sign.h"
+#include "primitive/mesh_edges.h"
+#include "support/meshes.h"
+
+// What is particular to meshes: lines through vertices, along edges and in faces, and what no rounding may decide.
+namespace tenon {
+namespace {
+
+using exact::Line;
+using exact::Quad;
+using exact::Vec;
+
+struct Solid {
+  PrimitiveStore store;
+  PrimitiveId id;
+  oracle::Solid<Quad> definition;
+
+  explicit Solid(TriangleMesh mesh, bool hull = false) : Solid(meshes::share(std::move(mesh)), hull) {}
+  Solid(const SharedMesh& mesh, bool hull) : definition("mesh", {mesh, hull}) {
+    const auto added = store.add(*PrimitiveStore::find_kind("mesh"), std::vector<FieldValue>{mesh, hull});
+    EXPECT_TRUE(added);
+    id = *added;
+  }
+  Spans cross(const Vec3& origin, const Vec3& direction) const {
+    Spans out;
+    spans(store, id, {origin, direction, {}, {}, -1}, out);
+    return out;
+  }
+};
+
+// Vertices on a lattice, so that lines through them are exact, aimed at vertices and at the middles of edges.
+TEST(Mesh, LinesThroughVerticesAndEdgesAreExact) {
+  Random random(5);
+  for (int n = 0; n < 30; ++n) {
+    TriangleMesh mesh = n % 2 == 0
+                            ? meshes::box({0, 0, 0}, {2, 4, 8})
+                            : meshes::star(1 + random.below(2), [&](const Vec3&) { return random.uniform(4, 9); });
+    for (Vec3& v : mesh.vertices) v = {std::round(16 * v.x), std::round(16 * v.y), std::round(16 * v.z)};
+    if (find_open_edges(mesh.triangles)) continue;
+    const Solid solid(mesh);
+    for (int i = 0; i < 1000; ++i) {
+      const auto vertex = [&] {
+        return mesh.vertices[static_cast<std::size_t>(random.below(static_cast<int>(mesh.vertices.size())))];
+      };
+      const auto [a, b, c] =
+          mesh.corners(static_cast<std::size_t>(random.below(static_cast<int>(mesh.triangles.size()))));
+      const Vec3 target = random.chance(0.5) ? vertex() : 0.5 * a + 0.5 * b;
+      const Vec3 from = random.chance(0.5) ? vertex() : 200 * random.in_cube();
+      Vec3 direction = random.chance(0.3) ? Vec3{0, 0, 0} : target - from;
+      if (direction == Vec3{}) direction[random.below(3)] = random.sign();
+      const Vec3 origin = target - direction;
+      const Spans out = solid.cross(origin, direction);
+      const auto problem = check_against(solid.definition, {Vec<Quad>(origin), Vec<Quad>(direction)}, out, 0,
+                                         200 / length(direction), random, 4);
+      ASSERT_FALSE(problem) << *problem << describe(origin, direction);
+    }
+  }
+}
+
+TEST(Mesh, ALineInAFaceCrossesAnEvenNumber) {
+  const Solid solid(meshes::box({0, 0, 0}, {1, 1, 1}));
+  for (const double y : {0.0, 0.25, 1.0}) {
+    for (const Vec3& direction : {Vec3{1, 0, 0}, Vec3{1, 0.5, 0}, Vec3{1, 1, 0}, Vec3{0, 1, 0}}) {
+      for (const double z : {0.0, 1.0}) {
+        const Spans out = solid.cross({-1, y, z}, direction);
+        EXPECT_FALSE(check_order(out)) << *check_order(out);
+      }
+    }
+  }
+}
+
+TEST(Mesh, OverlappingPartsAreOneSolid) {
+  const Solid solid(meshes::together(meshes::box({0, 0, 0}, {2, 2, 2}), meshes::box({1, 0.5, 0.5}, {3, 1.5, 1.5})));
+  const Spans out = solid.cross({-1, 1.1, 0.9}, {1, 0, 0});
+  ASSERT_EQ(out.size(), 2u) << describe(out);
+  EXPECT_NEAR(out[0].t, 1, 1e-14);
+  EXPECT_NEAR(out[1].t, 4, 1e-14);
+  // A cavity: an inner box that faces the other way.
+  TriangleMesh inner = meshes::box({0.5, 0.5, 0.5}, {1.5, 1.5, 1.5});
+  for (auto& corners : inner.triangles) std::swap(corners[1], corners[2]);
+  EXPECT_EQ(Solid(meshes::together(meshes::box({0, 0, 0}, {2, 2, 2}), inner)).cross({-1, 1.1, 0.9}, {1, 0, 0}).size(),
+            4u);
+}
+
+TEST(Mesh, AHullIsASurface) {
+  TriangleMesh open = meshes::box({0, 0, 0}, {1, 1, 1});
+  open.triangles.pop_back();
+  PrimitiveStore store;
+  const auto refused =
+      store.add(*PrimitiveStore::find_kind("mesh"), std::vector<FieldValue>{meshes::share(open), false});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("3 of its edges"), std::string::npos) << refused.error().message;
+  const Solid hull(open, true);
+  const Spans out = hull.cross({0.3, 0.2, -1}, {0, 0, 1});
+  ASSERT_EQ(out.size(), 2u) << describe(out);
+  for (const Crossing& c : out) EXPECT_TRUE(c.surface);
+  // Through the hole.
+  EXPECT_EQ(hull.cross({0.3, 0.6, -1}, {0, 0, 1}).size(), 1u);
+}
+
+TEST(EdgeSign, IsExactAndOfOppositeSignBackwards) {
+  Random random(2);
+  int ties = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const auto small = [&] { return Vec3{1.0 * random.below(5), 1.0 * random.below(5), 1.0 * random.below(5)}; };
+    // Far away, where double rounds everything but the lattice itself.
+    const Vec3 offset = i % 2 == 0 ? Vec3{} : Vec3{0x1p40, -0x1p41, 0x1p39};
+    const Vec3 o = small() + offset, a = small() + offset, b = small() + offset;
+    Vec3 d = small();
+    if (d == Vec3{}) d.x = 1;
+    const int sign = edge_sign(o, d, a, b);
+    EXPECT_EQ(edge_sign(o, d, b, a), -sign);
+    const double value = dot(d, cross(a - o, b - o));
+    if (value != 0) {
+      EXPECT_EQ(sign, value > 0 ? 1 : -1);
+    } else {
+      ++ties;
+      EXPECT_EQ(sign == 0, cross(a - b, d) == Vec3{});
+    }
+  }
+  EXPECT_GT(ties, 1000);
+}
+
+}  // namespace
+}  // namespace tenon
