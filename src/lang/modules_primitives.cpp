@@ -1,9 +1,13 @@
 #include <cmath>
+#include <filesystem>
 
 #include "lang/facets.h"
+#include "lang/failure.h"
 #include "lang/format.h"
 #include "lang/polyhedron.h"
 #include "lang/primitive_arguments.h"
+#include "lang/source_files.h"
+#include "mesh/load_mesh.h"
 
 namespace tenon::lang {
 
@@ -11,6 +15,15 @@ namespace {
 
 Solid make_polyhedron(ModuleCall& call, std::vector<Plane> planes) {
   return make_primitive(call, "convex_polyhedron", {FieldValue(std::move(planes))});
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
 }
 
 std::optional<Solid> cube(ModuleCall& call) {
@@ -95,19 +108,72 @@ std::vector<std::vector<std::size_t>> require_faces(const ModuleArguments& argum
   return faces;
 }
 
+constexpr std::size_t most_planes = 32;
+
+PolygonSoup soup_of(const std::vector<Vec3>& points, const std::vector<std::vector<std::size_t>>& faces) {
+  PolygonSoup soup;
+  soup.points = points;
+  for (const std::vector<std::size_t>& face : faces) {
+    soup.add_face(std::vector<std::uint32_t>(face.begin(), face.end()));
+  }
+  return soup;
+}
+
+std::optional<Solid> make_mesh(ModuleCall& call, const PolygonSoup& soup) {
+  Result<BuiltMesh> built = build_mesh(soup, "the polyhedron", false);
+  if (!built) fail(call.at(), built.error().message);
+  for (const std::string& note : built->notes) call.evaluator.environment().warn(call.at(), note);
+  return make_primitive(call, "mesh", {std::make_shared<const TriangleMesh>(std::move(built->mesh)), false});
+}
+
 std::optional<Solid> polyhedron(ModuleCall& call) {
   constexpr std::string_view names[] = {"points", "faces", "convexity", "triangles"};
   const ModuleArguments arguments(call, names, UnknownArgument::warn);
   const std::vector<Vec3> points = require_points(arguments, 0);
   const bool old = !arguments.given(1) && arguments.given(3);
   if (old) call.evaluator.environment().warn(arguments.at(3), "'triangles' is deprecated; write 'faces'");
-  auto result = planes_of(points, require_faces(arguments, old ? 3 : 1));
+  const std::vector<std::vector<std::size_t>> faces = require_faces(arguments, old ? 3 : 1);
+  auto result = planes_of(points, faces);
+  const auto* planes = std::get_if<0>(&result);
+  const bool is_general = !planes && std::get<1>(result).is_general;
+  // The time of every ray grows with the number of planes, of a mesh's with its logarithm.
+  if (is_general || (planes && planes->size() > most_planes)) return make_mesh(call, soup_of(points, faces));
   if (const auto* bad = std::get_if<BadPolyhedron>(&result)) {
     if (!bad->empty) fail(call.at(), bad->message);
     call.evaluator.environment().warn(call.at(), bad->message);
     return Solid::nothing();
   }
   return make_polyhedron(call, std::get<0>(std::move(result)));
+}
+
+// Of the file's mesh, one primitive, however often it is imported: it is stored once.
+std::optional<Solid> import(ModuleCall& call) {
+  constexpr std::string_view names[] = {"file", "convexity", "layer", "origin", "scale", "hull"};
+  const ModuleArguments arguments(call, names, UnknownArgument::warn);
+  Environment& environment = call.evaluator.environment();
+  const String* file = arguments[0].string();
+  if (!file) fail(arguments.at(0), "import() needs 'file', the name of a mesh file in quotes");
+  const bool* hull = arguments[5].boolean();
+  if (arguments.given(5) && !hull) fail(arguments.at(5), "'hull' must be true or false");
+  const std::string found = SourceFiles::find(file->text(), call.at());
+  const std::string path = std::filesystem::absolute(found).lexically_normal().string();
+  const bool as_hull = hull && *hull;
+
+  PrimitiveId& known = call.evaluator.imported(path, as_hull);
+  if (known) return call.evaluator.builder().leaf(known);
+  Result<BuiltMesh> built = load_mesh(found, as_hull);
+  if (!built) throw Failure{built.error()};
+  for (const std::string& note : built->notes) environment.warn(arguments.at(0), found + ": " + note);
+  built->mesh.source = "import(file = " + quoted(path) + (as_hull ? ", hull = true)" : ")");
+  const Result<PrimitiveId> made = call.evaluator.builder().model().graph.primitives.add(
+      *PrimitiveStore::find_kind("mesh"),
+      std::vector<FieldValue>{std::make_shared<const TriangleMesh>(std::move(built->mesh)), as_hull});
+  if (!made) {
+    environment.warn(arguments.at(0), found + ": " + made.error().message);
+    return Solid::nothing();
+  }
+  known = *made;
+  return call.evaluator.builder().leaf(known);
 }
 
 std::vector<Plane> require_planes(const ModuleArguments& arguments, std::size_t index, std::string_view name) {
@@ -185,6 +251,7 @@ void add_primitive_modules(BuiltinModuleTable& table, SymbolTable& symbols) {
   table.emplace(symbols.intern("sphere"), sphere);
   table.emplace(symbols.intern("cylinder"), cylinder);
   table.emplace(symbols.intern("polyhedron"), polyhedron);
+  for (const char* name : {"import", "import_stl", "import_off"}) table.emplace(symbols.intern(name), import);
   for (const PrimitiveKind& kind : PrimitiveStore::kinds()) {
     table.emplace(symbols.intern(kind.scad_name), primitive_of_kind);
   }

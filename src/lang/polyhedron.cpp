@@ -144,12 +144,14 @@ std::variant<std::vector<Plane>, BadPolyhedron> planes_of(const std::vector<Vec3
   if (finder.is_flat()) return BadPolyhedron{"the polyhedron has no volume; it makes no solid", true};
   for (const auto& [edge, beside] : edges) {
     if (beside.size() == 2) continue;
+    // Where solids touch, along an edge, more faces meet.
+    if (beside.size() % 2 == 0) return BadPolyhedron{"the polyhedron is not convex", false, true};
     return BadPolyhedron{"the polyhedron is not closed: the edge from point " + std::to_string(edge.first) +
                          " to point " + std::to_string(edge.second) + " borders " + std::to_string(beside.size()) +
                          (beside.size() == 1 ? " face" : " faces") + ", not two"};
   }
   if (!finder.all_points_are_within()) {
-    return BadPolyhedron{"a polyhedron of non-convex shape is not supported yet; build it as a union of convex ones"};
+    return BadPolyhedron{"the polyhedron is not convex", false, true};
   }
   return finder.planes();
 }

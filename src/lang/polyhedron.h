@@ -11,7 +11,8 @@ namespace tenon::lang {
 /// Why points and faces make no convex polyhedron.
 struct BadPolyhedron {
   std::string message;
-  bool empty = false;  ///< it is only without volume
+  bool empty = false;       ///< it is only without volume
+  bool is_general = false;  ///< it is closed, but not convex
 };
 
 /// The planes of a convex polyhedron given by its corners and faces. Faces may be oriented either way.

@@ -187,7 +187,7 @@ inline constexpr Scene scenes[] = {
     {"nested", nested_scene},
     {"deep", deep_scene},
     {"flat", flat_scene},
-    {"tiny", [] { return sized_scene(6, 1e-9, {}); }},
+    {"tiny", [] { return sized_scene(16, 1e-9, {}); }},
     {"huge", [] { return sized_scene(17, 1e9, {}); }},
     {"far_away",
      [] {

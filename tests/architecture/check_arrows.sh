@@ -10,11 +10,12 @@ allowed() {
     base) echo "" ;;
     math) echo "base" ;;
     primitive) echo "math base" ;;
+    mesh) echo "primitive math base" ;;
     csg) echo "primitive math base" ;;
     accel) echo "csg primitive math base" ;;
     scene) echo "accel csg primitive math base" ;;
     render) echo "scene accel csg primitive math base" ;;
-    lang) echo "scene csg primitive math base" ;;
+    lang) echo "scene csg mesh primitive math base" ;;
     image) echo "math base" ;;
     exchange) echo "render scene accel csg primitive math base" ;;
     *) echo "?" ;;
@@ -22,7 +23,7 @@ allowed() {
 }
 
 failed=0
-for folder in base math primitive csg accel scene render lang image exchange; do
+for folder in base math primitive mesh csg accel scene render lang image exchange; do
   for file in $(find "src/$folder" "include/tenon/$folder" \( -name '*.h' -o -name '*.cpp' \) 2>/dev/null); do
     for used in $(sed -n 's|^#include "\(tenon/\)\{0,1\}\([a-z]*\)/.*|\2|p' "$file" | sort -u); do
       [ "$used" = "$folder" ] && continue
@@ -38,7 +39,7 @@ for folder in base math primitive csg accel scene render lang image exchange; do
   done
 done
 for file in $(find apps -name '*.h' -o -name '*.cpp'); do
-  if grep -nE '^#include "(base|math|primitive|csg|accel|scene|render|lang|image|exchange)/' "$file"; then
+  if grep -nE '^#include "(base|math|primitive|mesh|csg|accel|scene|render|lang|image|exchange)/' "$file"; then
     echo "$file: error: programs include only from include/tenon/"
     failed=1
   fi

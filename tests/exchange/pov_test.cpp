@@ -94,10 +94,13 @@ const std::map<std::string, std::string> scenes{
 TEST(Pov, EveryPrimitiveIsWrittenOrRefusedByName) {
   const std::map<std::string, std::string> refused{
       {"prism", "linear_extrude(2) polygon([[0, 0], [2, 0], [1, 0.5], [0, 2]]);"},
-      {"revolution", "rotate_extrude() translate([2, 0]) circle(1);"}};
+      {"revolution", "rotate_extrude() translate([2, 0]) circle(1);"},
+      {"mesh",
+       "polyhedron([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4], [0.5, 0.5, 0.5]],"
+       " [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 4], [3, 2, 4], [2, 1, 4]]);"}};
   for (const PrimitiveKind& kind : PrimitiveStore::kinds()) {
     const std::string name(kind.name);
-    if (scenes.count(name) != 0 || name == "mesh") continue;
+    if (scenes.count(name) != 0) continue;
     ASSERT_EQ(refused.count(name), 1u) << name;
     const Result<std::string> pov = print_pov(scene_of(refused.at(name)), depth);
     ASSERT_FALSE(pov.ok()) << name;

@@ -174,15 +174,32 @@ TEST(Polyhedron, OfConvexShape) {
   EXPECT_NE(error_of(points + "polyhedron(p, [[0,1,2],[0,3,1],[1,3,2]]);").find("is not closed"), std::string::npos);
   EXPECT_NE(error_of(points + "polyhedron(p, [[0,1,2],[0,3,1],[1,3,2],[0,2,7]]);").find("only 4 points"),
             std::string::npos);
-  EXPECT_NE(error_of("polyhedron([[0,0,0],[4,0,0],[0,4,0],[0,0,4],[0.5,0.5,0.5]],"
-                     "[[0,1,2],[0,3,1],[0,2,3],[1,3,4],[3,2,4],[2,1,4]]);")
-                .find("non-convex shape is not supported yet"),
-            std::string::npos);
   EXPECT_NE(
       error_of("polyhedron([[0,0,0],[1,0,0],[1,1,0.1],[0,1,0],[0,0,1]], [[0,1,2,3],[0,1,4],[1,2,4],[2,3,4],[3,0,4]]);")
           .find("is not flat"),
       std::string::npos);
   EXPECT_EQ(tree_of("polyhedron([[0,0,0],[1,0,0],[0,1,0]], [[0,1,2],[2,1,0]]);"), "");
+}
+
+// A tetrahedron with a dent; clockwise as seen from outside, then the other way round, then one face turned.
+TEST(Polyhedron, OfAnyShape) {
+  const std::string points = "polyhedron([[0,0,0],[4,0,0],[0,4,0],[0,0,4],[0.5,0.5,0.5]],";
+  const std::string mesh =
+      "polyhedron(points = [[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4], [0.5, 0.5, 0.5]], faces = "
+      "[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 4], [3, 2, 4], [2, 1, 4]]);\n";
+  EXPECT_EQ(tree_of(points + "[[0,1,2],[0,3,1],[0,2,3],[1,3,4],[3,2,4],[2,1,4]]);"), mesh);
+  EXPECT_EQ(tree_of(mesh), mesh);
+  EXPECT_EQ(tree_of(points + "[[0,2,1],[0,1,3],[0,3,2],[1,4,3],[3,4,2],[2,4,1]]);").substr(0, 20), mesh.substr(0, 20));
+  EXPECT_NE(error_of(points + "[[0,2,1],[0,3,1],[0,2,3],[1,3,4],[3,2,4],[2,1,4]]);").find("do not all face one way"),
+            std::string::npos);
+  // An L of two quadrangles deep: its ends are faces of six corners that are not convex.
+  const std::string ell =
+      "polyhedron([for (z = [0, 1]) each [[0,0,z],[2,0,z],[2,1,z],[1,1,z],[1,2,z],[0,2,z]]],"
+      "[[0,1,2,3,4,5],[11,10,9,8,7,6],each [for (i = [0:5]) [i, i + 6, (i + 1) % 6 + 6, (i + 1) % 6]]]);";
+  const Outcome outcome = evaluate(ell);
+  ASSERT_TRUE(outcome.model.ok()) << error_of(ell);
+  const auto values = outcome.model->graph.primitives.values(PrimitiveId{0});
+  EXPECT_EQ(std::get<SharedMesh>(values.front())->triangles.size(), 20u);
 }
 
 }  // namespace

@@ -1,0 +1,60 @@
+#include "mesh/load_mesh.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace tenon {
+
+namespace {
+
+using Reader = Result<PolygonSoup> (*)(const MeshFile&);
+
+constexpr std::pair<const char*, Reader> readers[] = {
+    {".stl", read_stl}, {".obj", read_obj}, {".off", read_off}, {".ply", read_ply}};
+
+// Indices of corners are 32 bits wide, and a corner takes at least two bytes.
+constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 32;
+
+Error at_file(const std::string& path, const std::string& message, ErrorKind kind = ErrorKind::input) {
+  return Error{kind, message, {path, 0, 0, {}}};
+}
+
+Result<MeshFile> read_bytes(const std::string& path) {
+  std::error_code problem;
+  if (!std::filesystem::is_regular_file(path, problem)) return at_file(path, "this is no file; name a mesh file");
+  const std::uintmax_t size = std::filesystem::file_size(path, problem);
+  if (problem) return at_file(path, "cannot read it: " + problem.message(), ErrorKind::machine);
+  if (size > largest_file) return at_file(path, "mesh files end at 4 GiB; split it");
+  MeshFile file{path, std::string(static_cast<std::size_t>(size), '\0')};
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(file.bytes.data(), static_cast<std::streamsize>(size));
+  if (!stream) return at_file(path, std::string("cannot read it: ") + std::strerror(errno), ErrorKind::machine);
+  return file;
+}
+
+}  // namespace
+
+Result<BuiltMesh> load_mesh(const std::string& path, bool hull) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto* found =
+      std::find_if(std::begin(readers), std::end(readers), [&](const auto& reader) { return ending == reader.first; });
+  if (found == std::end(readers)) {
+    return at_file(path, "meshes are read from files that end in .stl, .obj, .off or .ply, not '" + ending +
+                             "'; export it as one of these");
+  }
+  const Result<MeshFile> file = read_bytes(path);
+  if (!file) return file.error();
+  const Result<PolygonSoup> soup = found->second(*file);
+  if (!soup) return soup.error();
+  Result<BuiltMesh> built = build_mesh(*soup, "the mesh", hull);
+  if (!built) return at_file(path, built.error().message);
+  return built;
+}
+
+}  // namespace tenon
