@@ -123,6 +123,19 @@ TEST(Cells, PacketsSayWhatSingleRaysSay) {
   EXPECT_GT(found, queries.size() / 4);
 }
 
+// More work gives more and smaller cells.
+TEST(Cells, QualityIsWorkInTheSubdivision) {
+  const CsgTree tree = gallery::random_scene(6, 60, 3);
+  std::vector<double> counts;
+  for (const char* spec : {"cells:quality=fast", "cells", "cells:quality=high"}) {
+    const auto accelerator = build_accelerator(spec, tree);
+    ASSERT_TRUE(accelerator.ok());
+    counts.push_back(detail(**accelerator, "boundary cells"));
+  }
+  EXPECT_LT(counts[0], counts[1]);
+  EXPECT_LT(counts[1], counts[2]);
+}
+
 // The tree is the same for any number of threads.
 TEST(Cells, AreBuiltAlikeByAnyNumberOfThreads) {
   const CsgTree tree = gallery::random_scene(6, 400, 6);

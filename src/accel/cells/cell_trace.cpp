@@ -191,16 +191,6 @@ class SingleTracer {
     return WholeLine(one);
   }
 
-  // The face of the leaf that the ray starts on, or -1.
-  int StartFace(LeafId leaf) const {
-    if (query_->from == nullptr) return -1;
-    const auto& faces = query_->from->faces;
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      if (faces[i].leaf == leaf) return static_cast<int>(faces[i].face);
-    }
-    return -1;
-  }
-
   const Spans& FindSpans(LeafId leaf, int on_face) {
     auto& known = scratch_.mailbox[leaf.get() % CellScratch::known];
     if (known.ray == scratch_.ray && known.leaf == leaf) return known.spans;
@@ -215,7 +205,8 @@ class SingleTracer {
   }
 
   HWY_INLINE Outcome Meet(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
-    if (cell.extended || cell.general) return MeetGeneral(cell, t_in, t_out, answer);
+    // Leaves that do not all have a chord, or more than a word of truth values has room for.
+    if (cell.extended || cell.general) return Outcome::unsure;
     const double near = 2 * resolution_;
     // A leaf that the ray misses is crossed nowhere.
     constexpr double never = std::numeric_limits<double>::infinity();
@@ -227,7 +218,7 @@ class SingleTracer {
     tests_ += count;
     const bool starts = t_in <= near;
     for (std::uint32_t i = 0; i < count; ++i) {
-      const int on_face = query_->from == nullptr ? -1 : StartFace(cell.leaves[i]);
+      const int on_face = start_face(*query_, cell.leaves[i]);
       const ChordLanes<One> chord = FindChord(cell.shapes[i], on_face);
       if (!hn::AllFalse(one, chord.unsure)) return Outcome::unsure;
       const bool hit = !hn::AllFalse(one, chord.hit);
@@ -366,7 +357,7 @@ class SingleTracer {
     const auto collect = [&](double end, std::uint32_t place, bool entering) {
       const double apart = std::fabs(end - t);
       if (!(apart <= near)) return true;
-      if (!(apart <= together_)) return false;
+      if (!(apart <= together_) || group.size == Cell::most_tabled) return false;
       group.Add({end, place, entering});
       return true;
     };
@@ -384,11 +375,6 @@ class SingleTracer {
     return enters_here != leaves_here && (enters_here ? enter : leave) == 0;
   }
 
-  // A cell whose leaves do not all have a chord, or that has more than a word of truth values has room for.
-  Outcome MeetGeneral(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
-    return Resolve(cell, t_in, t_out, answer);
-  }
-
   // Has the classifier follow the ray through the cell, with the bounds of all crossings.
   //
   // The cell's expression is right within 8 resolutions around the stretch (CellScale). A run that begins in it takes
@@ -403,7 +389,7 @@ class SingleTracer {
     if (lists.size() < leaves.size()) lists.resize(leaves.size());
     const double near = 8 * resolution_;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-      const Spans& known = FindSpans(leaves[i], StartFace(leaves[i]));
+      const Spans& known = FindSpans(leaves[i], start_face(*query_, leaves[i]));
       for (const Crossing& c : known) {
         const bool matters = c.t + c.bound >= t_in - near && c.t - c.bound <= t_out + near;
         if (c.surface || (matters && !(c.bound <= resolution_))) return Outcome::unsure;
@@ -462,7 +448,7 @@ class PacketTracer {
   using U = hn::RebindToUnsigned<D>;
   static constexpr std::size_t width = MaxLanes8();
 
-  PacketTracer(const CellTree& cells, const CsgTree& tree) : cells_(cells), tree_(tree) {}
+  explicit PacketTracer(const CellTree& cells) : cells_(cells) {}
 
   // Answers `width` rays; false when they do not make a packet.
   bool Trace(const RayQuery* queries, CellAnswer* answers, TraversalStatistics& statistics) {
@@ -751,7 +737,6 @@ class PacketTracer {
   static constexpr std::size_t most_depth = 64;
 
   const CellTree& cells_;
-  const CsgTree& tree_;
   RayLanes<D> ray_{};
   hn::Vec<D> start_{}, length_{};
   int backward_[3] = {};
@@ -777,7 +762,7 @@ void TraceFirst(const CellTree& cells, const CsgTree& tree, std::span<const RayQ
   constexpr std::size_t width = PacketTracer::width;
   std::size_t i = 0;
   if (width >= 4 && queries.size() >= width) {
-    PacketTracer packet(cells, tree);
+    PacketTracer packet(cells);
     for (; i + width <= queries.size(); i += width) {
       const bool together = packet.Trace(&queries[i], &answers[i], statistics);
       for (std::size_t k = i; k < i + width; ++k) {

@@ -94,6 +94,16 @@ struct CellScratch {
   std::vector<Run> runs;                     ///< of the tile
 };
 
+/// The face of the leaf that the ray starts on, or -1.
+inline int start_face(const RayQuery& query, LeafId leaf) {
+  if (query.from == nullptr) return -1;
+  const auto& faces = query.from->faces;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (faces[i].leaf == leaf) return static_cast<int>(faces[i].face);
+  }
+  return -1;
+}
+
 /// Follows rays to their first boundaries with the widest instructions that the machine has: neighbours that go the
 /// same way together, the others one by one.
 void trace_first(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries,

@@ -144,12 +144,7 @@ class Cells final : public Accelerator {
       hit = make_hit(tree_, query.ray, run);
       return true;
     }
-    int on_face = -1;
-    if (query.from != nullptr) {
-      for (std::size_t i = 0; i < query.from->faces.size(); ++i) {
-        if (query.from->faces[i].leaf == answer.surface.leaf) on_face = static_cast<int>(query.from->faces[i].face);
-      }
-    }
+    const int on_face = cells::start_face(query, answer.surface.leaf);
     context.spans.clear();
     spans(tree_.primitives, leaf.primitive, leaf.placement, query.ray, tree_.tolerance.distance, on_face,
           context.spans);
@@ -199,10 +194,10 @@ Result<std::unique_ptr<Accelerator>> build_cells(const BuildInput& input, Accele
   cells::BuildQuality quality;
   switch (options.take_word("quality", {"default", "fast", "high"})) {
     case 1:
-      quality = {1.0 / 8, 1};
+      quality = {1.0 / 2, 1};
       break;
     case 2:
-      quality = {1.0 / 128, 7};
+      quality = {1.0 / 32, 3};
       break;
     default:
       break;
