@@ -46,11 +46,11 @@ void print_light(const Light& light, double far, PovText& out) {
 }
 
 // Of a transparent pigment POV-Ray takes the diffuse and the ambient term by what it does not transmit; kd has that
-// share taken off already.
+// share taken off already. Of one that transmits all it takes nothing, whatever stands here.
 void print_material(const std::string& name, const Material& m, const Rgb& ambient, PovText& out) {
   const bool whitted = m.model == MaterialModel::whitted;
   const double transmitted = whitted ? m.kt : 0;
-  const double opaque = std::max(1 - transmitted, 1e-6);
+  const double opaque = transmitted < 1 ? 1 - transmitted : 1;
   const Rgb color = linear_from_srgb(m.color.value_or(Rgba{1, 1, 1, 1}));
   out << "#declare " << name << " = material { texture { pigment { " << color;
   if (transmitted > 0) out << " transmit " << transmitted;
