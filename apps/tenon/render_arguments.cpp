@@ -123,17 +123,23 @@ void RenderArguments::add_to(CLI::App& command) {
   command.add_option("--size", size, "The picture's width and height in pixels")
       ->type_name("WxH")
       ->capture_default_str();
-  command.add_option("--integrator", integrator, "How light is followed: whitted")
+  command
+      .add_option("--integrator", integrator, "How light is followed: whitted (the course's illumination model), path")
       ->type_name("NAME")
       ->capture_default_str();
   command.add_option("--spp", samples, "Samples for each pixel; 1: its centre")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(1, 65536).description("1 to 65536"));
-  command.add_option("--depth", depth, "Levels of the tree of rays; 1: nothing is reflected or refracted")
+  command
+      .add_option("--depth", depth,
+                  "Levels of the tree of rays, or surfaces along a path; 1: nothing is reflected or refracted. "
+                  "8 by whitted, 20 by path")
       ->type_name("N")
-      ->capture_default_str()
       ->check(CLI::Range(1, 1000).description("1 to 1000"));
+  command.add_option("--seed", seed, "Of everything that --integrator path draws at random")
+      ->type_name("N")
+      ->capture_default_str();
   command
       .add_option("--camera", camera, "In place of the scene's camera: six numbers, and a horizontal angle in degrees")
       ->type_name("FROM,AT[,FOV]");
@@ -157,11 +163,12 @@ void RenderArguments::add_to(CLI::App& command) {
 Result<RenderPlan> plan_render(const RenderArguments& arguments, const std::string& scene_stem) {
   RenderPlan plan;
   if (arguments.integrator == "path") {
-    return usage_error("the integrator 'path' is not built yet; use --integrator whitted");
+    plan.integrator = IntegratorKind::path;
+  } else if (arguments.integrator != "whitted") {
+    return usage_error("there is no integrator '" + arguments.integrator + "'; there are: whitted, path");
   }
-  if (arguments.integrator != "whitted") {
-    return usage_error("there is no integrator '" + arguments.integrator + "'; there is: whitted");
-  }
+  const bool is_path = plan.integrator == IntegratorKind::path;
+  plan.depth = arguments.depth != 0 ? arguments.depth : is_path ? 20 : 8;
   if (Status status = read_size(arguments.size, plan); !status) return status.error();
   if (!arguments.camera.empty()) {
     if (Status status = read_camera(arguments.camera, plan); !status) return status.error();

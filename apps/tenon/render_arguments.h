@@ -6,6 +6,7 @@
 
 #include "tenon/base/error.h"
 #include "tenon/image/picture_file.h"
+#include "tenon/render/renderer.h"
 #include "tenon/scene/camera.h"
 
 namespace tenon {
@@ -18,7 +19,8 @@ struct RenderArguments {
   std::string camera;
   std::string statistics;
   int samples = 1;
-  int depth = 8;
+  int depth = 0;
+  std::uint64_t seed = 0;
   int bits = 0;
   bool orthographic = false;
 
@@ -31,6 +33,8 @@ struct RenderPlan {
   PictureFormat format = PictureFormat::png;
   int bits = 8;
   int width = 0, height = 0;
+  IntegratorKind integrator = IntegratorKind::whitted;
+  int depth = 8;
   std::optional<Camera> camera;
 };
 

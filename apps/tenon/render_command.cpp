@@ -46,12 +46,13 @@ class Output {
 
 // What the picture depends on, and nothing else: the same picture is the same file, whatever threads, structure and
 // name it was made with.
-std::vector<PictureNote> picture_notes(const RenderCommand& command) {
+std::vector<PictureNote> picture_notes(const RenderCommand& command, const RenderPlan& plan) {
   std::string line = "tenon render " + command.scene.path;
   for (const std::string& definition : command.scene.definitions) line += " -D '" + definition + '\'';
   line += " --facets " + command.scene.facets + " --size " + command.render.size + " --integrator " +
           command.render.integrator + " --spp " + std::to_string(command.render.samples) + " --depth " +
-          std::to_string(command.render.depth);
+          std::to_string(plan.depth);
+  if (plan.integrator == IntegratorKind::path) line += " --seed " + std::to_string(command.render.seed);
   if (!command.render.camera.empty()) line += " --camera " + command.render.camera;
   if (command.render.orthographic) line += " --orthographic";
   return {{"Software", "tenon " + std::string(version())}, {"Title", command.scene.path}, {"Source", line}};
@@ -93,7 +94,9 @@ Status RenderCommand::run() const {
   options.width = plan->width;
   options.height = plan->height;
   options.samples = render.samples;
-  options.depth = render.depth;
+  options.integrator = plan->integrator;
+  options.depth = plan->depth;
+  options.seed = render.seed;
   options.threshold = invisible_share(plan->bits == 8 ? 8 : 16);
   options.threads = tracing.thread_count();
   console.progress().begin("rendering");
@@ -102,7 +105,7 @@ Status RenderCommand::run() const {
   if (!rendering) return rendering.error();
 
   console.progress().begin("writing " + plan->output);
-  const Result<std::string> bytes = encode(rendering->film, *plan, picture_notes(*this));
+  const Result<std::string> bytes = encode(rendering->film, *plan, picture_notes(*this, *plan));
   if (!bytes) return bytes.error();
   if (Status status = picture_file->finish(*bytes); !status) return status;
   if (statistics_file) {

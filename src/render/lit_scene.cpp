@@ -52,7 +52,8 @@ double LitLight::spot_share(const Vec3& to_light) const {
 LitScene::LitScene(const Scene& scene)
     : default_material_(reflectance_of(scene.default_material, scene.ambient)),
       medium_ior_(scene.medium_ior),
-      background_(scene.background) {
+      background_(scene.background),
+      ambient_(scene.ambient) {
   materials_.reserve(scene.materials.size());
   for (const Material& m : scene.materials) materials_.push_back(reflectance_of(m, scene.ambient));
   lights_.reserve(scene.lights.size());

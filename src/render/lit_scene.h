@@ -48,6 +48,7 @@ class LitScene {
   const Reflectance& reflectance(MaterialId id) const { return id ? materials_[id.get()] : default_material_; }
   const std::vector<LitLight>& lights() const { return lights_; }
   const Rgb& background() const { return background_; }
+  const Rgb& ambient() const { return ambient_; }
   double ior(MediumId medium) const { return medium < medium_ior_.size() ? medium_ior_[medium] : 1.0; }
 
  private:
@@ -55,7 +56,7 @@ class LitScene {
   std::vector<Reflectance> materials_;
   std::vector<LitLight> lights_;
   std::vector<double> medium_ior_;
-  Rgb background_;
+  Rgb background_, ambient_;
 };
 
 }  // namespace tenon

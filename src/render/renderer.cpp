@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/lit_scene.h"
+#include "render/path.h"
 #include "render/pixel_samples.h"
 #include "render/tiles.h"
 #include "render/whitted.h"
@@ -15,6 +16,14 @@ namespace tenon {
 
 namespace {
 
+std::unique_ptr<Integrator> make_integrator(const LitScene& scene, const Accelerator& accelerator,
+                                            const RenderOptions& options) {
+  if (options.integrator == IntegratorKind::path) {
+    return std::make_unique<PathIntegrator>(scene, accelerator, Sampler(options.seed), options.depth);
+  }
+  return std::make_unique<WhittedIntegrator>(scene, accelerator, RecursionLimits{options.depth, options.threshold});
+}
+
 // What one thread needs to render tiles. Primary rays go to the accelerator one sample of a whole tile at a time.
 class TileWorker {
  public:
@@ -23,17 +32,18 @@ class TileWorker {
       : accelerator_(accelerator),
         camera_(camera),
         samples_(static_cast<std::uint32_t>(options.samples)),
+        sampler_(options.seed),
+        is_random_(options.integrator == IntegratorKind::path),
         context_(accelerator.make_context()),
-        integrator_(scene, accelerator, {options.depth, options.threshold}) {}
+        integrator_(make_integrator(scene, accelerator, options)) {}
 
   void render(const Tile& tile, Film& film) {
     sums_.assign(tile.pixels(), Rgb{});
     for (std::uint32_t sample = 0; sample < samples_; ++sample) {
-      aim(tile, pixel_sample(sample, samples_));
+      aim(tile, sample);
       accelerator_.first_hits(queries_, hits_, *context_);
-      for (std::size_t i = 0; i < sums_.size(); ++i) {
-        sums_[i] += integrator_.radiance(queries_[i].ray, hits_[i], *context_);
-      }
+      integrator_->radiance(queries_, hits_, ids_, light_, *context_);
+      for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += light_[i];
     }
     const double share = 1.0 / samples_;
     std::size_t i = 0;
@@ -45,14 +55,19 @@ class TileWorker {
   const TraversalStatistics& statistics() const { return context_->statistics; }
 
  private:
-  void aim(const Tile& tile, const PixelSample& place) {
+  void aim(const Tile& tile, std::uint32_t sample) {
     queries_.resize(tile.pixels());
     hits_.resize(tile.pixels());
+    ids_.resize(tile.pixels());
+    light_.resize(tile.pixels());
+    const PixelSample shared = pixel_sample(sample, samples_);
     std::size_t i = 0;
     for (int y = tile.y0; y < tile.y1; ++y) {
       for (int x = tile.x0; x < tile.x1; ++x) {
+        const SampleId id = ids_[i] = {x, y, sample};
         RayQuery& query = queries_[i++];
-        query.ray = camera_.ray(x + place.x, y + place.y);
+        const Sample2 drawn = is_random_ ? sampler_(id, sample_pair::pixel) : Sample2{shared.x, shared.y};
+        query.ray = camera_.ray(x + drawn.u, y + drawn.v);
         query.pixel_x = x;
         query.pixel_y = y;
       }
@@ -62,10 +77,14 @@ class TileWorker {
   const Accelerator& accelerator_;
   const CameraRays& camera_;
   std::uint32_t samples_;
+  Sampler sampler_;
+  bool is_random_;
   std::unique_ptr<TraceContext> context_;
-  WhittedIntegrator integrator_;
+  std::unique_ptr<Integrator> integrator_;
+  std::vector<SampleId> ids_;
   std::vector<RayQuery> queries_;
   std::vector<Hit> hits_;
+  std::vector<Rgb> light_;
   std::vector<Rgb> sums_;
 };
 

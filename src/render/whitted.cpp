@@ -8,6 +8,11 @@
 
 namespace tenon {
 
+void WhittedIntegrator::radiance(std::span<const RayQuery> primary, std::span<const Hit> hits,
+                                 std::span<const SampleId>, std::span<Rgb> light, TraceContext& context) {
+  for (std::size_t i = 0; i < primary.size(); ++i) light[i] = radiance(primary[i].ray, hits[i], context);
+}
+
 Rgb WhittedIntegrator::radiance(const Ray& primary, const Hit& first, TraceContext& context) {
   Rgb sum;
   Ray ray = primary;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "render/integrator.h"
 #include "render/lit_scene.h"
 #include "tenon/accel/accelerator.h"
 #include "tenon/math/color.h"
@@ -18,11 +19,14 @@ struct RecursionLimits {
 ///
 ///   I = kd C Ia  +  kd C Σ Ij cos(Lj, N)  +  ks Σ Ij cos(N, Hj)^n  +  ks I(reflected ray)  +  kt I(refracted ray)
 ///
-/// One for each thread: it keeps scratch memory.
-class WhittedIntegrator {
+/// Nothing in it is drawn at random.
+class WhittedIntegrator final : public Integrator {
  public:
   WhittedIntegrator(const LitScene& scene, const Accelerator& accelerator, const RecursionLimits& limits)
       : scene_(scene), accelerator_(accelerator), limits_(limits) {}
+
+  void radiance(std::span<const RayQuery> primary, std::span<const Hit> hits, std::span<const SampleId> samples,
+                std::span<Rgb> light, TraceContext& context) override;
 
   /// The light that comes back along a ray of length 1.
   /// @param ray      the ray

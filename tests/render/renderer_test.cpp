@@ -54,12 +54,15 @@ bool same_bytes(const Film& a, const Film& b) {
   return a.rgb().size() == b.rgb().size() && std::memcmp(a.rgb().data(), b.rgb().data(), a.rgb().size_bytes()) == 0;
 }
 
-TEST(Renderer, SameBytesForAnyThreadsAndTiles) {
+class SameBytes : public testing::TestWithParam<IntegratorKind> {};
+
+TEST_P(SameBytes, ForAnyThreadsAndTiles) {
   const Still still;
-  const Rendering reference = still.render(small());
+  RenderOptions options = small();
+  options.integrator = GetParam();
+  const Rendering reference = still.render(options);
   for (int threads : {1, 2, 7}) {
     for (int tile_size : {1, 16, 33, 1000}) {
-      RenderOptions options = small();
       options.threads = threads;
       options.tile_size = tile_size;
       const Rendering other = still.render(options);
@@ -68,6 +71,9 @@ TEST(Renderer, SameBytesForAnyThreadsAndTiles) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Renderer, SameBytes, testing::Values(IntegratorKind::whitted, IntegratorKind::path),
+                         [](const auto& test) { return test.param == IntegratorKind::path ? "path" : "whitted"; });
 
 TEST(Renderer, CountsItsRays) {
   const Still still;

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+
+#include "render/sampler.h"
+#include "tenon/accel/accelerator.h"
+#include "tenon/math/color.h"
+
+namespace tenon {
+
+/// Finds the light that comes back along primary rays. One for each thread: it keeps scratch memory.
+///
+/// It is given many rays at once, such as those of a tile, so that it can follow them together, one bounce of all
+/// before the next: structures trace many rays faster than one. What comes back along a ray depends on it and on its
+/// sample alone, not on the rays beside it.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+
+  /// @param primary  rays of length 1
+  /// @param hits     what each meets first
+  /// @param samples  which sample of which pixel each belongs to
+  /// @param light    receives what comes back along each; all four have one length
+  /// @param context  of this thread
+  virtual void radiance(std::span<const RayQuery> primary, std::span<const Hit> hits, std::span<const SampleId> samples,
+                        std::span<Rgb> light, TraceContext& context) = 0;
+
+ protected:
+  Integrator() = default;
+  Integrator(const Integrator&) = default;
+  Integrator& operator=(const Integrator&) = default;
+};
+
+}  // namespace tenon
