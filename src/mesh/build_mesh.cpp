@@ -4,6 +4,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "mesh/self_intersection.h"
 #include "mesh/triangulate.h"
 #include "primitive/mesh_edges.h"
 
@@ -67,6 +68,7 @@ class MeshBuilder {
     if (!hull_) {
       if (const auto open = find_open_edges(mesh().triangles)) return not_closed(*open);
       face_outward();
+      tell_self_intersection();
     }
     return std::move(built_);
   }
@@ -198,6 +200,18 @@ class MeshBuilder {
     for (Corners& corners : m.triangles) std::swap(corners[1], corners[2]);
     for (Corners& corners : m.corner_normals) std::swap(corners[1], corners[2]);
     for (Vec3& n : m.normals) n = -n;
+  }
+
+  // The solid is well defined all the same, but seldom what was meant where parts overlap unseen.
+  void tell_self_intersection() {
+    const auto crossing = find_self_intersection(mesh());
+    if (!crossing) return;
+    const bool many = crossing->count >= SelfIntersection::most_counted;
+    built_.notes.push_back(what_ + " passes through itself: " + (many ? "at least " : "") +
+                           std::to_string(crossing->count) + (crossing->count == 1 ? " pair" : " pairs") +
+                           " of its triangles; first, triangles " + std::to_string(crossing->first) + " and " +
+                           std::to_string(crossing->second) + " near " + place(crossing->place) +
+                           "; the solid is the union of its parts, what the mesh winds around at least once");
   }
 
   const PolygonSoup& soup_;

@@ -18,7 +18,8 @@ struct BuiltMesh {
 /// the triangles must close it and face outward.
 ///
 /// Mended is what is certain: faces without area are left out, a face that stands there twice is taken once, and a mesh
-/// that faces inward throughout is turned.
+/// that faces inward throughout is turned. A mesh that passes through itself is told with a note: its solid is the
+/// union of its parts.
 ///
 /// @param what  what it is, for messages: "the mesh", "the polyhedron"
 /// @param hull  the surface alone is wanted: nothing needs to be closed

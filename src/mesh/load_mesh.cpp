@@ -36,25 +36,43 @@ Result<MeshFile> read_bytes(const std::string& path) {
   return file;
 }
 
-}  // namespace
-
-Result<BuiltMesh> load_mesh(const std::string& path, bool hull) {
+std::string ending_of(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto* found =
-      std::find_if(std::begin(readers), std::end(readers), [&](const auto& reader) { return ending == reader.first; });
-  if (found == std::end(readers)) {
-    return at_file(path, "meshes are read from files that end in .stl, .obj, .off or .ply, not '" + ending +
-                             "'; export it as one of these");
-  }
-  const Result<MeshFile> file = read_bytes(path);
-  if (!file) return file.error();
-  const Result<PolygonSoup> soup = found->second(*file);
+  return ending;
+}
+
+// nullptr where none reads such files.
+Reader find_reader(const std::string& path) {
+  const auto* found = std::find_if(std::begin(readers), std::end(readers),
+                                   [&](const auto& reader) { return ending_of(path) == reader.first; });
+  return found == std::end(readers) ? nullptr : found->second;
+}
+
+Error not_readable(const std::string& path) {
+  return at_file(path, "meshes are read from files that end in .stl, .obj, .off or .ply, not '" + ending_of(path) +
+                           "'; export it as one of these");
+}
+
+}  // namespace
+
+Result<BuiltMesh> parse_mesh(const MeshFile& file, bool hull) {
+  const Reader read = find_reader(file.path);
+  if (read == nullptr) return not_readable(file.path);
+  const Result<PolygonSoup> soup = read(file);
   if (!soup) return soup.error();
   Result<BuiltMesh> built = build_mesh(*soup, "the mesh", hull);
-  if (!built) return at_file(path, built.error().message);
+  if (!built) return at_file(file.path, built.error().message);
   return built;
+}
+
+Result<BuiltMesh> load_mesh(const std::string& path, bool hull) {
+  // Told before a file that is none of ours is read.
+  if (find_reader(path) == nullptr) return not_readable(path);
+  const Result<MeshFile> file = read_bytes(path);
+  if (!file) return file.error();
+  return parse_mesh(*file, hull);
 }
 
 }  // namespace tenon

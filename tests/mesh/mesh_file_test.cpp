@@ -186,5 +186,18 @@ TEST_F(MeshFileTest, WhatIsCertainIsMended) {
   EXPECT_EQ(twice->notes[1], "the mesh has 1 triangle that stand there already; each is taken once");
 }
 
+TEST_F(MeshFileTest, AMeshThatPassesThroughItselfIsToldSo) {
+  // Two tetrahedra; the edge from 4 to 7 of the second passes through the face 1 2 3 of the first.
+  const std::string two =
+      "OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0.2 0.2 0.2\n1.2 0.2 0.2\n0.2 1.2 0.2\n0.2 0.2 1.2\n"
+      "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n3 4 6 5\n3 4 5 7\n3 4 7 6\n3 5 6 7\n";
+  const auto loaded = load("a.off", two);
+  ASSERT_TRUE(loaded) << format_error(loaded.error());
+  ASSERT_EQ(loaded->notes.size(), 1u);
+  EXPECT_EQ(loaded->notes[0],
+            "the mesh passes through itself: 3 pairs of its triangles; first, triangles 3 and 4 near [0.2, 0.6, 0.2]; "
+            "the solid is the union of its parts, what the mesh winds around at least once");
+}
+
 }  // namespace
 }  // namespace tenon
