@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "accel/leaf_slabs.h"
-#include "accel/ray_box.h"
+#include "kdtree/ray_box.h"
 
 namespace tenon {
 

@@ -2,8 +2,8 @@
 
 #include "accel/all.h"
 #include "accel/bsp_options.h"
-#include "accel/ray_box.h"
 #include "accel/structure.h"
+#include "kdtree/ray_box.h"
 
 namespace tenon {
 

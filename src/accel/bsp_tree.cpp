@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "accel/macdonald_booth.h"
-#include "accel/reference_budget.h"
+#include "kdtree/reference_budget.h"
 
 namespace tenon {
 

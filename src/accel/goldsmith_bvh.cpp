@@ -20,8 +20,8 @@
 #include "accel/all.h"
 #include "accel/enclosures.h"
 #include "accel/nearest_first.h"
-#include "accel/ray_box.h"
 #include "accel/structure.h"
+#include "kdtree/ray_box.h"
 
 namespace tenon {
 

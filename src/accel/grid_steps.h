@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "accel/grid_geometry.h"
-#include "accel/ray_box.h"
+#include "kdtree/ray_box.h"
 
 namespace tenon {
 

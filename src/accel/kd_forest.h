@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "accel/enclosures.h"
-#include "accel/kd_tree.h"
 #include "accel/operation_tree.h"
+#include "kdtree/kd_tree.h"
 
 namespace tenon {
 

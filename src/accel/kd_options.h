@@ -1,7 +1,7 @@
 #pragma once
 
-#include "accel/kd_tree.h"
 #include "accel/options.h"
+#include "kdtree/kd_tree.h"
 
 namespace tenon {
 

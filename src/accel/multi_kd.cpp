@@ -3,8 +3,8 @@
 #include "accel/all.h"
 #include "accel/kd_forest.h"
 #include "accel/kd_options.h"
-#include "accel/kd_walk.h"
 #include "accel/structure.h"
+#include "kdtree/kd_walk.h"
 
 namespace tenon {
 

@@ -1,9 +1,9 @@
 #include "accel/all.h"
 #include "accel/enclosures.h"
 #include "accel/kd_options.h"
-#include "accel/kd_walk.h"
 #include "accel/operation_marks.h"
 #include "accel/structure.h"
+#include "kdtree/kd_walk.h"
 
 namespace tenon {
 

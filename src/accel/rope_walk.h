@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "accel/ray_box.h"
 #include "accel/roped_bsp.h"
 #include "accel/structure.h"
+#include "kdtree/ray_box.h"
 
 namespace tenon {
 

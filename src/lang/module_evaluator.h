@@ -55,8 +55,8 @@ class ModuleEvaluator {
   /// The value of a `$` variable when it is a number, else the fallback.
   double special_number(Symbol name, double fallback) const;
 
-  /// The primitive that a mesh file became, by its path; none yet when it is new.
-  PrimitiveId& imported(const std::string& path, bool hull) { return imported_[{path, hull}]; }
+  /// The primitive that a mesh file became, by the statement that makes it; none yet when it is new.
+  PrimitiveId& imported(const std::string& source) { return imported_[source]; }
 
   /// Where children of the call being evaluated stand: lights and cameras move with the transforms around them.
   Affine3 world_from_here;
@@ -80,7 +80,7 @@ class ModuleEvaluator {
   SceneBuilder builder_;
   BuiltinModuleTable builtins_;
   Names names_;
-  std::map<std::pair<std::string, bool>, PrimitiveId> imported_;
+  std::map<std::string, PrimitiveId> imported_;
   std::optional<Solid> root_;  // made by the first statement marked `!`
 };
 

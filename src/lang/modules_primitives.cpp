@@ -146,9 +146,17 @@ std::optional<Solid> polyhedron(ModuleCall& call) {
   return make_polyhedron(call, std::get<0>(std::move(result)));
 }
 
+MeshStructure mesh_structure(const ModuleArguments& arguments, std::size_t index) {
+  if (!arguments.given(index)) return MeshStructure::bvh;
+  const String* name = arguments[index].string();
+  if (name && name->text() == "bvh") return MeshStructure::bvh;
+  if (name && name->text() == "kd") return MeshStructure::kd;
+  fail(arguments.at(index), "'local' must be \"bvh\" or \"kd\", the structure over the triangles of the mesh");
+}
+
 // Of the file's mesh, one primitive, however often it is imported: it is stored once.
 std::optional<Solid> import(ModuleCall& call) {
-  constexpr std::string_view names[] = {"file", "convexity", "layer", "origin", "scale", "hull"};
+  constexpr std::string_view names[] = {"file", "convexity", "layer", "origin", "scale", "hull", "local"};
   const ModuleArguments arguments(call, names, UnknownArgument::warn);
   Environment& environment = call.evaluator.environment();
   const String* file = arguments[0].string();
@@ -158,13 +166,17 @@ std::optional<Solid> import(ModuleCall& call) {
   const std::string found = SourceFiles::find(file->text(), call.at());
   const std::string path = std::filesystem::absolute(found).lexically_normal().string();
   const bool as_hull = hull && *hull;
+  const MeshStructure local = mesh_structure(arguments, 6);
+  const std::string source = "import(file = " + quoted(path) + (as_hull ? ", hull = true" : "") +
+                             (local == MeshStructure::kd ? ", local = \"kd\")" : ")");
 
-  PrimitiveId& known = call.evaluator.imported(path, as_hull);
+  PrimitiveId& known = call.evaluator.imported(source);
   if (known) return call.evaluator.builder().leaf(known);
   Result<BuiltMesh> built = load_mesh(found, as_hull);
   if (!built) throw Failure{built.error()};
   for (const std::string& note : built->notes) environment.warn(arguments.at(0), found + ": " + note);
-  built->mesh.source = "import(file = " + quoted(path) + (as_hull ? ", hull = true)" : ")");
+  built->mesh.source = source;
+  built->mesh.local = local;
   const Result<PrimitiveId> made = call.evaluator.builder().model().graph.primitives.add(
       *PrimitiveStore::find_kind("mesh"),
       std::vector<FieldValue>{std::make_shared<const TriangleMesh>(std::move(built->mesh)), as_hull});

@@ -59,15 +59,23 @@ Box3 box_around(const std::array<Vec3, 3>& p) {
 }  // namespace
 
 SharedMesh Mesh::unit_tetrahedron() {
-  static const SharedMesh mesh = std::make_shared<const TriangleMesh>(TriangleMesh{
-      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}, {}, {}, {}});
+  static const SharedMesh mesh = [] {
+    TriangleMesh tetrahedron;
+    tetrahedron.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    tetrahedron.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    return std::make_shared<const TriangleMesh>(std::move(tetrahedron));
+  }();
   return mesh;
 }
 
 void Mesh::prepare() {
   if (!mesh || !check_numbers(*mesh).empty()) return;
   auto index = std::make_shared<Index>();
-  index->bvh = MeshBvh(*mesh);
+  if (mesh->local == MeshStructure::kd) {
+    index->structure.emplace<MeshKdTree>(*mesh);
+  } else {
+    index->structure.emplace<MeshBvh>(*mesh);
+  }
   for (const TriangleMesh::Corners& corners : mesh->triangles) {
     for (const std::uint32_t v : corners) index->bounds = tenon::hull(index->bounds, mesh->vertices[v]);
   }
@@ -83,6 +91,15 @@ std::string Mesh::check() const {
            " of its edges are not run along as often in one direction as in the other";
   }
   return {};
+}
+
+double Mesh::support(const Vec3& n) const {
+  if (const auto* bvh = std::get_if<MeshBvh>(&index_->structure)) return bvh->support(*mesh, n);
+  double best = -Box3::inf;
+  for (const TriangleMesh::Corners& corners : mesh->triangles) {
+    for (const std::uint32_t v : corners) best = std::max(best, dot(n, mesh->vertices[v]));
+  }
+  return best;
 }
 
 Vec3 Mesh::flat_normal(std::uint32_t face) const {
@@ -124,7 +141,10 @@ bool Mesh::meets(const LocalBox& box, std::uint32_t triangle) const {
 
 Region Mesh::classify(const LocalBox& box) const {
   if (!index_->bounds.overlaps(box.bounds)) return Region::outside;
-  if (!index_->bvh.walk(box.bounds, [&](std::uint32_t t) { return !meets(box, t); })) return Region::straddles;
+  const auto is_clear = [&](const auto& structure) {
+    return structure.walk(box.bounds, [&](std::uint32_t t) { return !meets(box, t); });
+  };
+  if (!std::visit(is_clear, index_->structure)) return Region::straddles;
   if (hull) return Region::outside;
   // No face comes near the box, so its middle tells: by a line through it, of which nothing near it may be in doubt.
   Spans crossings;

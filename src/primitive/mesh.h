@@ -4,9 +4,11 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <variant>
 
 #include "primitive/concept.h"
 #include "primitive/mesh_bvh.h"
+#include "primitive/mesh_kd_tree.h"
 
 namespace tenon {
 
@@ -30,7 +32,7 @@ class Mesh {
   void prepare();
   std::string check() const;
 
-  double support(const Vec3& n) const { return index_->bvh.support(*mesh, n); }
+  double support(const Vec3& n) const;
 
   /// Every crossing of the line with the solid, whatever it grazes: which triangles the line meets is decided exactly
   /// (edge_sign), so each edge and each vertex is crossed once or not at all. Faces: the triangles, by index.
@@ -42,7 +44,7 @@ class Mesh {
  private:
   // What follows from the mesh; shared by all copies.
   struct Index {
-    MeshBvh bvh;
+    std::variant<MeshBvh, MeshKdTree> structure;
     Box3 bounds;
   };
   static SharedMesh unit_tetrahedron();

@@ -59,19 +59,7 @@ class MeshBvh {
 template <class Visitor>
 void MeshBvh::walk(const MeshLine& line, Visitor&& visit) const {
   if (nodes_.empty()) return;
-  // near and far planes: (plane - begin) * inverse. A direction without a component along an axis gets one that takes
-  // it nowhere within the mesh: 2^-200 of the largest.
-  std::array<double, 3> near_begin, far_begin, inverse;
-  std::array<bool, 3> forward;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    const double d = line.direction[axis], least = 0x1p-200 * std::fabs(line.direction[line.along]);
-    forward[i] = !(d < 0);
-    inverse[i] = 1 / (std::fabs(d) < least ? (forward[i] ? least : -least) : d);
-    const double grow = forward[i] ? line.growth[axis] : -line.growth[axis];
-    near_begin[i] = line.origin[axis] + grow;
-    far_begin[i] = line.origin[axis] - grow;
-  }
+  const MeshSlabs slabs(line);
   std::array<std::uint32_t, stack_size> stack;
   std::size_t top = 0;
   stack[top++] = 0;
@@ -81,15 +69,14 @@ void MeshBvh::walk(const MeshLine& line, Visitor&& visit) const {
     enter.fill(-Box3::inf);
     leave.fill(Box3::inf);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto& near = forward[axis] ? node.lower[axis] : node.upper[axis];
-      const auto& far = forward[axis] ? node.upper[axis] : node.lower[axis];
+      const auto& near = slabs.forward[axis] ? node.lower[axis] : node.upper[axis];
+      const auto& far = slabs.forward[axis] ? node.upper[axis] : node.lower[axis];
       for (std::size_t i = 0; i < width; ++i) {
-        enter[i] = std::max(enter[i], (near[i] - near_begin[axis]) * inverse[axis]);
-        leave[i] = std::min(leave[i], (far[i] - far_begin[axis]) * inverse[axis]);
+        enter[i] = std::max(enter[i], (near[i] - slabs.near_begin[axis]) * slabs.inverse[axis]);
+        leave[i] = std::min(leave[i], (far[i] - slabs.far_begin[axis]) * slabs.inverse[axis]);
       }
     }
     for (std::size_t i = 0; i < width; ++i) {
-      // An infinite growth gives no order; then everything is met.
       if (enter[i] > leave[i]) continue;
       const Child child = node.children[i];
       if (child.count == 0) {

@@ -91,11 +91,14 @@ bool find_candidate(const MeshLine& line, const TriangleMesh& mesh, std::uint32_
   const bool positive = u.is_positive() || v.is_positive() || w.is_positive();
   const bool negative = u.is_negative() || v.is_negative() || w.is_negative();
   if (positive && negative) return false;
+  const bool is_certain = (u.is_positive() && v.is_positive() && w.is_positive()) ||
+                          (u.is_negative() && v.is_negative() && w.is_negative());
+  // What is in doubt must not depend on how generous the boxes are that the triangle was found in.
+  if (!is_certain && !MeshSlabs(line).meets({min(p[0], min(p[1], p[2])), max(p[0], max(p[1], p[2]))})) return false;
 
   out.triangle = triangle;
   const int facing = line.direction[line.along] > 0 ? 1 : -1;
-  out.is_certain = (u.is_positive() && v.is_positive() && w.is_positive()) ||
-                   (u.is_negative() && v.is_negative() && w.is_negative());
+  out.is_certain = is_certain;
   if (out.is_certain) {
     out.is_hit = true;
     out.sense = positive ? facing : -facing;

@@ -250,11 +250,19 @@ void emit_surface(std::vector<MeshCandidate>& candidates, double scale, int on_f
 void Mesh::spans(const LocalRay& ray, Spans& out) const {
   const MeshLine line(ray, index_->bounds);
   std::vector<MeshCandidate> candidates;
-  index_->bvh.walk(line, [&](std::uint32_t triangle) {
-    MeshCandidate candidate;
-    if (find_candidate(line, *mesh, triangle, candidate)) candidates.push_back(candidate);
-  });
+  const auto find_candidates = [&](const auto& structure) {
+    structure.walk(line, [&](std::uint32_t triangle) {
+      MeshCandidate candidate;
+      if (find_candidate(line, *mesh, triangle, candidate)) candidates.push_back(candidate);
+    });
+  };
+  std::visit(find_candidates, index_->structure);
   if (candidates.empty()) return;
+  // Each once, in an order that does not depend on the structure.
+  std::sort(candidates.begin(), candidates.end(),
+            [](const MeshCandidate& a, const MeshCandidate& b) { return a.triangle < b.triangle; });
+  const auto is_same = [](const MeshCandidate& a, const MeshCandidate& b) { return a.triangle == b.triangle; };
+  candidates.erase(std::unique(candidates.begin(), candidates.end(), is_same), candidates.end());
   if (hull) return emit_surface(candidates, line.scale, ray.on_face, out);
   emit_solid(*mesh, candidates, line.scale, ray.on_face, out);
 }

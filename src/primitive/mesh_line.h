@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "primitive/local_ray.h"
@@ -61,6 +62,37 @@ struct MeshLine {
     const double height = p[along] - origin[along];
     x = (p[across[0]] - origin[across[0]]) - shear[0] * height;
     y = (p[across[1]] - origin[across[1]]) - shear[1] * height;
+  }
+};
+
+/// A line against boxes, with all that it may be wrong by: the near and far planes are met at
+/// (plane - begin) * inverse. A direction without a component along an axis gets one that takes it nowhere within the
+/// mesh: 2^-200 of the largest. Rounding is monotonic, so a box is met whenever one within it is.
+struct MeshSlabs {
+  std::array<double, 3> near_begin, far_begin, inverse;
+  std::array<bool, 3> forward;
+
+  explicit MeshSlabs(const MeshLine& line) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      const double d = line.direction[axis], least = 0x1p-200 * std::fabs(line.direction[line.along]);
+      forward[i] = !(d < 0);
+      inverse[i] = 1 / (std::fabs(d) < least ? (forward[i] ? least : -least) : d);
+      const double grow = forward[i] ? line.growth[axis] : -line.growth[axis];
+      near_begin[i] = line.origin[axis] + grow;
+      far_begin[i] = line.origin[axis] - grow;
+    }
+  }
+
+  bool meets(const Box3& box) const {
+    double enter = -Box3::inf, leave = Box3::inf;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double lower = box.lower[static_cast<int>(axis)], upper = box.upper[static_cast<int>(axis)];
+      enter = std::max(enter, ((forward[axis] ? lower : upper) - near_begin[axis]) * inverse[axis]);
+      leave = std::min(leave, ((forward[axis] ? upper : lower) - far_begin[axis]) * inverse[axis]);
+    }
+    // An infinite growth gives no order; then everything is met.
+    return !(enter > leave);
   }
 };
 

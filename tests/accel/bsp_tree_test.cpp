@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "random_boxes.h"
+#include "accel/enclosed_boxes.h"
 
 namespace tenon {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "random_boxes.h"
+#include "accel/enclosed_boxes.h"
 
 namespace tenon {
 namespace {

@@ -9,10 +9,11 @@ allowed() {
   case "$1" in
     base) echo "" ;;
     math) echo "base" ;;
-    primitive) echo "math base" ;;
+    kdtree) echo "math base" ;;
+    primitive) echo "kdtree math base" ;;
     mesh) echo "primitive math base" ;;
     csg) echo "primitive math base" ;;
-    accel) echo "csg primitive math base" ;;
+    accel) echo "csg primitive kdtree math base" ;;
     scene) echo "accel csg primitive math base" ;;
     render) echo "scene accel csg primitive math base" ;;
     lang) echo "scene csg mesh primitive math base" ;;
@@ -23,7 +24,7 @@ allowed() {
 }
 
 failed=0
-for folder in base math primitive mesh csg accel scene render lang image exchange; do
+for folder in base math kdtree primitive mesh csg accel scene render lang image exchange; do
   for file in $(find "src/$folder" "include/tenon/$folder" \( -name '*.h' -o -name '*.cpp' \) 2>/dev/null); do
     for used in $(sed -n 's|^#include "\(tenon/\)\{0,1\}\([a-z]*\)/.*|\2|p' "$file" | sort -u); do
       [ "$used" = "$folder" ] && continue
@@ -39,7 +40,7 @@ for folder in base math primitive mesh csg accel scene render lang image exchang
   done
 done
 for file in $(find apps -name '*.h' -o -name '*.cpp'); do
-  if grep -nE '^#include "(base|math|primitive|mesh|csg|accel|scene|render|lang|image|exchange)/' "$file"; then
+  if grep -nE '^#include "(base|math|kdtree|primitive|mesh|csg|accel|scene|render|lang|image|exchange)/' "$file"; then
     echo "$file: error: programs include only from include/tenon/"
     failed=1
   fi

@@ -102,6 +102,44 @@ TEST(Mesh, AHullIsASurface) {
   EXPECT_EQ(hull.cross({0.3, 0.6, -1}, {0, 0, 1}).size(), 1u);
 }
 
+// The structure within decides nothing: the same crossings to the last bit, whatever the ray grazes, and from so far
+// away that the kd-tree cannot follow the line.
+TEST(Mesh, TheKdTreeFindsWhatTheHierarchyFinds) {
+  Random random(6);
+  for (int n = 0; n < 20; ++n) {
+    TriangleMesh mesh = n % 2 == 0 ? meshes::ring(1, 0.4, 24, 12)
+                                   : meshes::star(3, [&](const Vec3&) { return random.uniform(0.5, 1); });
+    for (Vec3& v : mesh.vertices)
+      v = 0x1p-8 * Vec3{std::round(256 * v.x), std::round(256 * v.y), std::round(256 * v.z)};
+    if (find_open_edges(mesh.triangles)) continue;
+    const Solid bvh(mesh);
+    mesh.local = MeshStructure::kd;
+    const Solid kd(mesh);
+    for (int i = 0; i < 2000; ++i) {
+      const auto [a, b, c] =
+          mesh.corners(static_cast<std::size_t>(random.below(static_cast<int>(mesh.triangles.size()))));
+      const Vec3 target = i % 3 == 0 ? a : i % 3 == 1 ? 0.5 * a + 0.5 * b : 0.3 * a + 0.3 * b + 0.4 * c;
+      Vec3 direction = random.direction();
+      for (int axis = 0; axis < 3; ++axis) {
+        if (random.chance(0.2)) direction[axis] = 0;
+      }
+      if (direction == Vec3{}) direction.x = 1;
+      const double away = i % 20 == 0 ? random.magnitude(4, 14) : random.uniform(-3, 3);
+      LocalRay ray{target - away * direction, direction, {}, {}, -1};
+      ray.origin_error = std::fabs(away) * Vec3{0x1p-50, 0x1p-50, 0x1p-50};
+      Spans from_bvh, from_kd;
+      spans(bvh.store, bvh.id, ray, from_bvh);
+      spans(kd.store, kd.id, ray, from_kd);
+      ASSERT_EQ(from_bvh.size(), from_kd.size()) << describe(ray.origin, direction);
+      for (std::size_t k = 0; k < from_bvh.size(); ++k) {
+        EXPECT_EQ(from_bvh[k].t, from_kd[k].t);
+        EXPECT_EQ(from_bvh[k].bound, from_kd[k].bound);
+        EXPECT_EQ(from_bvh[k].face, from_kd[k].face);
+      }
+    }
+  }
+}
+
 TEST(EdgeSign, IsExactAndOfOppositeSignBackwards) {
   Random random(2);
   int ties = 0;

@@ -94,7 +94,9 @@ class RandomValues {
       default:
         mesh = meshes::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
     }
-    return meshes::share(meshes::scaled(std::move(mesh), {length(), length(), length()}, offset));
+    mesh = meshes::scaled(std::move(mesh), {length(), length(), length()}, offset);
+    mesh.local = random_.chance(0.3) ? MeshStructure::kd : MeshStructure::bvh;
+    return meshes::share(std::move(mesh));
   }
   double length() { return random_.chance(0.1) ? random_.magnitude(-3, 3) : scale_ * random_.magnitude(-0.7, 0.7); }
 

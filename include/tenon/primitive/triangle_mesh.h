@@ -9,6 +9,12 @@
 
 namespace tenon {
 
+/// What finds the triangles that a ray meets, within the primitive (Zajíček 2012, §3.2). The answers are the same.
+enum class MeshStructure {
+  bvh,  ///< a bounding volume hierarchy, four children a node
+  kd,   ///< the thesis's kd-tree
+};
+
 /// Triangles over shared vertices.
 struct TriangleMesh {
   using Corners = std::array<std::uint32_t, 3>;
@@ -17,7 +23,8 @@ struct TriangleMesh {
   std::vector<Corners> triangles;       ///< into `vertices`; counterclockwise as seen from outside
   std::vector<Vec3> normals;            ///< for shading, any length but zero; empty where faces are flat
   std::vector<Corners> corner_normals;  ///< into `normals`, one entry a triangle; empty where `normals` is
-  std::string source;                   ///< the statement of the scene language that makes it again; may be empty
+  MeshStructure local = MeshStructure::bvh;
+  std::string source;  ///< the statement of the scene language that makes it again; may be empty
 
   /// The corners of a triangle.
   std::array<Vec3, 3> corners(std::size_t triangle) const {

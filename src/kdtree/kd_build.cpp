@@ -4,9 +4,9 @@
 #include <tuple>
 #include <utility>
 
-#include "accel/kd_events.h"
-#include "accel/kd_tree.h"
-#include "accel/reference_budget.h"
+#include "kdtree/kd_events.h"
+#include "kdtree/kd_tree.h"
+#include "kdtree/reference_budget.h"
 
 namespace tenon {
 

@@ -24,7 +24,7 @@ struct BoxSpan {
 };
 
 /// Where the ray, from `t_min` to `t_max`, lies in the box. Each end errs by a few units in the last place of t and of
-/// the ray's origin, which the margin of the boxes covers (enclosure_margin).
+/// the ray's origin, which a margin of the boxes has to cover.
 inline BoxSpan clip(const BoxRay& ray, const Box3& box, double t_min = 0,
                     double t_max = std::numeric_limits<double>::infinity()) {
   for (int axis = 0; axis < 3; ++axis) {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "accel/kd_tree.h"
-#include "accel/ray_box.h"
+#include "kdtree/kd_tree.h"
+#include "kdtree/ray_box.h"
 
 namespace tenon {
 

@@ -1,11 +1,11 @@
-#include "accel/kd_tree.h"
+#include "kdtree/kd_tree.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "accel/kd_events.h"
-#include "random_boxes.h"
+#include "kdtree/kd_events.h"
+#include "support/random_boxes.h"
 
 namespace tenon {
 namespace {

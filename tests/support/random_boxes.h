@@ -1,9 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <random>
 #include <vector>
 
-#include "accel/enclosures.h"
+#include "tenon/math/box3.h"
 
 /// Boxes without primitives, for tests of trees alone.
 namespace tenon::boxes {
@@ -33,13 +34,6 @@ inline std::vector<Box3> random_boxes(std::mt19937_64& rng, std::size_t count) {
     boxes.push_back({a, a + size});
   }
   return boxes;
-}
-
-/// As the leaves of a scene, numbered in order.
-inline std::vector<EnclosedLeaf> enclosed(const std::vector<Box3>& boxes) {
-  std::vector<EnclosedLeaf> leaves;
-  for (std::size_t i = 0; i < boxes.size(); ++i) leaves.push_back({LeafId{i}, boxes[i]});
-  return leaves;
 }
 
 }  // namespace tenon::boxes

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "accel/kd_tree.h"
+#include "kdtree/kd_tree.h"
 
 namespace tenon {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "accel/kd_tree.h"
-#include "accel/surface_area_heuristic.h"
+#include "kdtree/kd_tree.h"
+#include "kdtree/surface_area_heuristic.h"
 
 namespace tenon {
 

@@ -38,7 +38,7 @@ class KdNode {
 };
 static_assert(sizeof(KdNode) == 8);
 
-/// A kd-tree over numbered items. As in a BspTree, an item absent from a cell keeps the boxes' margin from it.
+/// A kd-tree over numbered items. An item absent from a cell keeps the boxes' margin from it.
 struct KdTree {
   Box3 box;
   std::vector<KdNode> nodes;

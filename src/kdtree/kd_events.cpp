@@ -1,4 +1,4 @@
-#include "accel/kd_events.h"
+#include "kdtree/kd_events.h"
 
 #include <algorithm>
 
