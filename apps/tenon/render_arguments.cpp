@@ -2,14 +2,12 @@
 
 #include <unistd.h>
 
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
-#include <vector>
 
 #include "commands.h"
+#include "numbers.h"
 #include "scene_arguments.h"
-#include "tenon/render/camera_rays.h"
 #include "tenon/render/film.h"
 
 namespace tenon {
@@ -17,15 +15,6 @@ namespace tenon {
 namespace {
 
 constexpr int max_side = 65535;
-
-// Reads the whole text as one number.
-template <class T>
-std::optional<T> parse_number(std::string_view text) {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 std::string gigabytes(double bytes) {
   char text[32];
@@ -49,32 +38,6 @@ Status read_size(const std::string& text, RenderPlan& plan) {
   }
   plan.width = *width;
   plan.height = *height;
-  return success();
-}
-
-Status read_camera(const std::string& text, RenderPlan& plan) {
-  std::vector<double> numbers;
-  std::string_view rest = text;
-  for (;;) {
-    const std::size_t comma = rest.find(',');
-    const auto number = parse_number<double>(rest.substr(0, comma));
-    if (!number) numbers.resize(8);
-    if (numbers.size() > 7) break;
-    numbers.push_back(number.value_or(0));
-    if (comma == std::string_view::npos) break;
-    rest.remove_prefix(comma + 1);
-  }
-  if (numbers.size() != 6 && numbers.size() != 7) {
-    return usage_error(
-        "--camera takes six or seven numbers, from-x,y,z,at-x,y,z[,fov], such as 10,-10,8,0,0,0,40, not '" + text +
-        "'");
-  }
-  Camera camera;
-  camera.from = {numbers[0], numbers[1], numbers[2]};
-  camera.at = {numbers[3], numbers[4], numbers[5]};
-  if (numbers.size() == 7) camera.fov = numbers[6];
-  if (const auto rays = CameraRays::create(camera, 1, 1); !rays) return usage_error("--" + rays.error().message);
-  plan.camera = camera;
   return success();
 }
 
@@ -140,11 +103,7 @@ void RenderArguments::add_to(CLI::App& command) {
   command.add_option("--seed", seed, "Of everything that --integrator path draws at random")
       ->type_name("N")
       ->capture_default_str();
-  command
-      .add_option("--camera", camera, "In place of the scene's camera: six numbers, and a horizontal angle in degrees")
-      ->type_name("FROM,AT[,FOV]");
-  command.add_flag("--orthographic", orthographic,
-                   "Parallel rays, covering what the camera would see at the point it looks at");
+  view.add_to(command);
   command.add_option("--bits", bits, "Bits of each component: 8 or 16 for PNG (8), 16 or 32 for EXR (16)")
       ->type_name("N");
   command
@@ -170,9 +129,9 @@ Result<RenderPlan> plan_render(const RenderArguments& arguments, const std::stri
   const bool is_path = plan.integrator == IntegratorKind::path;
   plan.depth = arguments.depth != 0 ? arguments.depth : is_path ? 20 : 8;
   if (Status status = read_size(arguments.size, plan); !status) return status.error();
-  if (!arguments.camera.empty()) {
-    if (Status status = read_camera(arguments.camera, plan); !status) return status.error();
-  }
+  Result<ViewRequest> view = plan_view(arguments.view, static_cast<double>(plan.width) / plan.height);
+  if (!view) return view.error();
+  plan.view = *view;
   if (Status status = read_output(arguments, scene_stem, plan); !status) return status.error();
   return plan;
 }

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <optional>
 #include <string>
 
 #include "tenon/base/error.h"
 #include "tenon/image/picture_file.h"
 #include "tenon/render/renderer.h"
-#include "tenon/scene/camera.h"
+#include "view_arguments.h"
 
 namespace tenon {
 
@@ -16,13 +15,12 @@ struct RenderArguments {
   std::string output;
   std::string size = "640x480";
   std::string integrator = "whitted";
-  std::string camera;
+  ViewArguments view;
   std::string statistics;
   int samples = 1;
   int depth = 0;
   std::uint64_t seed = 0;
   int bits = 0;
-  bool orthographic = false;
 
   void add_to(CLI::App& command);
 };
@@ -35,7 +33,7 @@ struct RenderPlan {
   int width = 0, height = 0;
   IntegratorKind integrator = IntegratorKind::whitted;
   int depth = 8;
-  std::optional<Camera> camera;
+  ViewRequest view;
 };
 
 /// @param scene_stem  names the picture when nothing else does; empty for a scene without a name

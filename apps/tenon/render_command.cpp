@@ -53,8 +53,8 @@ std::vector<PictureNote> picture_notes(const RenderCommand& command, const Rende
           command.render.integrator + " --spp " + std::to_string(command.render.samples) + " --depth " +
           std::to_string(plan.depth);
   if (plan.integrator == IntegratorKind::path) line += " --seed " + std::to_string(command.render.seed);
-  if (!command.render.camera.empty()) line += " --camera " + command.render.camera;
-  if (command.render.orthographic) line += " --orthographic";
+  for (const std::string& cut : command.scene.section.cuts) line += " --cut " + cut;
+  line += command.render.view.words();
   return {{"Software", "tenon " + std::string(version())}, {"Title", command.scene.path}, {"Source", line}};
 }
 
@@ -76,8 +76,8 @@ Status RenderCommand::run() const {
   const Result<RenderPlan> plan = plan_render(render, scene.stem());
   if (!plan) return plan.error();
   Console console(scene.quiet);
-  const ViewArguments view{plan->camera, render.orthographic, plan->width, plan->height};
-  const Result<TraceableScene> traceable = prepare(scene, tracing, console, &view);
+  const PictureRequest picture{plan->view, plan->width, plan->height};
+  const Result<TraceableScene> traceable = prepare(scene, tracing, console, &picture);
   if (!traceable) return traceable.error();
 
   // Both files are begun now: better to learn that a place cannot be written before an hour of rendering than after.

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
-#include <numbers>
 
 #include "commands.h"
 #include "tenon/base/parallel_for.h"
@@ -41,14 +39,6 @@ Result<LoadOptions> load_options(const SceneArguments& arguments) {
   return options;
 }
 
-// The view at the point the camera looks at, with parallel rays.
-Camera made_orthographic(Camera camera) {
-  if (camera.projection == Projection::orthographic) return camera;
-  camera.projection = Projection::orthographic;
-  camera.width = 2 * length(camera.at - camera.from) * std::tan(camera.fov * (std::numbers::pi / 360));
-  return camera;
-}
-
 }  // namespace
 
 void SceneArguments::add_to(CLI::App& command) {
@@ -59,6 +49,7 @@ void SceneArguments::add_to(CLI::App& command) {
   command.add_option("--facets", facets, "When $fn makes polygons of round things: auto (below 13), always, never")
       ->type_name("WHEN")
       ->check(CLI::IsMember({"auto", "always", "never"}));
+  section.add_to(command);
   command.add_flag("-q,--quiet", quiet, "Show no progress");
 }
 
@@ -108,26 +99,27 @@ int TracingArguments::thread_count() const {
 Result<Model> load(const SceneArguments& arguments, Console& console) {
   const Result<LoadOptions> options = load_options(arguments);
   if (!options) return options.error();
+  Result<std::vector<SectionCut>> cuts = parse_cuts(arguments.section);
+  if (!cuts) return cuts.error();
   console.progress().begin("reading " + arguments.path);
   Result<Model> model = load_model(arguments.path, *options, console.diagnostics());
   console.progress().end();
+  if (model) model->section.insert(model->section.end(), cuts->begin(), cuts->end());
   return model;
 }
 
 Result<TraceableScene> prepare(const SceneArguments& arguments, const TracingArguments& tracing, Console& console,
-                               const ViewArguments* view) {
+                               const PictureRequest* picture) {
   if (Status status = tracing.check(); !status) return status.error();
   Result<Model> model = load(arguments, console);
   if (!model) return model.error();
-  if (view != nullptr && view->camera) model->camera = view->camera;
-
   console.progress().begin("compiling " + arguments.path);
-  Result<Scene> scene = compile_scene(std::move(*model), console.diagnostics());
+  Result<Scene> scene =
+      compile_scene(std::move(*model), console.diagnostics(), picture != nullptr ? picture->view : ViewRequest{});
   if (!scene) return scene.error();
   std::optional<ScreenView> screen;
-  if (view != nullptr) {
-    if (view->orthographic) scene->camera = made_orthographic(scene->camera);
-    const Result<CameraRays> rays = CameraRays::create(scene->camera, view->width, view->height);
+  if (picture != nullptr) {
+    const Result<CameraRays> rays = CameraRays::create(scene->camera, picture->width, picture->height);
     if (!rays) return rays.error();
     screen = rays->view();
   }

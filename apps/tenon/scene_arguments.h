@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "section_arguments.h"
 #include "tenon/accel/accelerator.h"
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/error.h"
@@ -19,6 +20,7 @@ struct SceneArguments {
   std::string path;
   std::vector<std::string> definitions;
   std::string facets = "auto";
+  SectionArguments section;
   bool quiet = false;
 
   void add_to(CLI::App& command);
@@ -59,7 +61,7 @@ class Console {
   Diagnostics diagnostics_;
 };
 
-/// Reads and evaluates the scene file.
+/// Reads and evaluates the scene file, and adds the cuts of the command line to its own.
 Result<Model> load(const SceneArguments& arguments, Console& console);
 
 /// A scene and the structure over it.
@@ -70,10 +72,9 @@ struct TraceableScene {
 };
 
 /// The picture a scene is prepared for.
-struct ViewArguments {
-  std::optional<Camera> camera;  ///< in place of the scene's own
-  bool orthographic = false;     ///< parallel rays, covering what the camera sees at the point it looks at
-  int width = 0, height = 0;     ///< pixels
+struct PictureRequest {
+  ViewRequest view;
+  int width = 0, height = 0;  ///< pixels
 };
 
 /// A structure and how long it took.
@@ -85,8 +86,8 @@ Result<BuiltAccelerator> build_timed(const std::string& spec, const Scene& scene
                                      Console& console);
 
 /// Reads the scene and builds the structure.
-/// @param view  none: rays may come from anywhere
+/// @param picture  none: rays may come from anywhere
 Result<TraceableScene> prepare(const SceneArguments& arguments, const TracingArguments& tracing, Console& console,
-                               const ViewArguments* view = nullptr);
+                               const PictureRequest* picture = nullptr);
 
 }  // namespace tenon

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "primitive/dispatch.h"
-#include "tenon/math/rounding.h"
 
 namespace tenon {
 
@@ -41,15 +40,6 @@ Slab slab_of(const Box3& box, const Vec3& n) {
   return slab;
 }
 
-// The largest n·p over the placed leaf, rounded up: the support is taken in the leaf's frame, along the normal mapped
-// there. A score of roundings stand between the two terms and the exact value, the map's own included.
-double world_support(const CsgTree& tree, const Leaf& leaf, const Vec3& n) {
-  const Affine3& map = leaf.placement.world_from_local();
-  const double local = support(tree.primitives, leaf.primitive, map.transposed_direction(n));
-  const double moved = dot(n, map.translation());
-  return local + moved + gamma(32) * (std::fabs(local) + std::fabs(moved));
-}
-
 }  // namespace
 
 std::span<const Vec3> slab_normals(std::size_t count) {
@@ -68,8 +58,9 @@ LeafSlabs::LeafSlabs(const CsgTree& tree, const std::vector<EnclosedLeaf>& leave
     for (const Vec3& n : slab_normals(normals).subspan(3)) {
       const Leaf& leaf = tree[l.leaf];
       const Slab cut = slab_of(l.box, n);
-      slabs_.push_back({std::max(cut.low, -world_support(tree, leaf, -n) - margin),
-                        std::min(cut.high, world_support(tree, leaf, n) + margin)});
+      slabs_.push_back(
+          {std::max(cut.low, -world_support(tree.primitives, leaf.primitive, leaf.placement, -n) - margin),
+           std::min(cut.high, world_support(tree.primitives, leaf.primitive, leaf.placement, n) + margin)});
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "tenon/csg/hit.h"
@@ -57,7 +58,7 @@ struct Run {
 /// run.
 ///
 /// *What shows.* Of the crossings whose interval meets the run's first, those whose bit alone changes the root in the
-/// state before or after the run; of these the first in tree order.
+/// state before or after all of them; of these the first in tree order.
 ///
 /// *Start.* The ray starts at t = 0. Crossings at or before it give the state there. From there on, changes of the root
 /// whose interval contains 0 are absorbed by the start, up to the first that does not.
@@ -272,8 +273,8 @@ class Classifier {
     return e.t - e.bound <= run_high_ && e.t + e.bound >= run_first_.t - run_first_.bound;
   }
 
-  // The run is complete; what it amounts to, or nothing. It is judged in the states right before and right after it:
-  // what else the ray has crossed by now depends on the structure.
+  // The run is complete; what it amounts to, or nothing. It is judged in the states before and behind all that
+  // coincides: what else the ray has crossed by now depends on the structure.
   std::optional<Run> close_run() {
     run_active_ = false;
     if (run_before_ == run_after_ && !run_shows_surface_) return std::nullopt;
@@ -294,13 +295,17 @@ class Classifier {
 
     const std::size_t now = trail_.size();
     rewind(now, run_end_);
+    pass_coinciding({trail_.data() + run_end_, now - run_end_}, queue_, run_after_);
     if (coincide) mark_candidates_that_change_root();
     LeafId owner;
     if (run_after_ != medium_outside) owner = find_owner();
+    take_back_passed();
     if (coincide || run_after_ == medium_outside) {
       rewind(run_end_, run_begin_);
+      pass_coinciding({trail_.data(), run_begin_}, {}, run_before_);
       if (coincide) mark_candidates_that_change_root();
       if (run_after_ == medium_outside) owner = find_owner();
+      take_back_passed();
       replay(run_begin_, run_end_);
     }
     replay(run_end_, now);
@@ -316,6 +321,24 @@ class Classifier {
     run.before = run_before_;
     run.after = run_after_;
     return run;
+  }
+
+  // Takes the state to the far end of what coincides with the run: crossings that do not change the root there have
+  // rounding's order too, but say whose point it is. So of two solids that touch in a plane where both are cut, the one
+  // that is left owns the cut. Crossings that do change it, since the run ended before them, are not the run's.
+  void pass_coinciding(std::span<const Event> some, std::span<const Event> others, MediumId value) {
+    if (candidates_.size() < 2) return;
+    for (const std::span<const Event> events : {some, others}) {
+      for (const Event& e : events) {
+        if (!e.surface && meets_run(e)) passed_.push_back(e.leaf);
+      }
+    }
+    for (const LeafId leaf : passed_) flip(leaf);
+    if (value_ != value) take_back_passed();
+  }
+  void take_back_passed() {
+    for (const LeafId leaf : passed_) flip(leaf);
+    passed_.clear();
   }
 
   void mark_candidates_that_change_root() {
@@ -383,6 +406,7 @@ class Classifier {
   std::uint64_t seam_faults_ = 0;
   Spans spans_;
   std::vector<Event> candidates_;
+  std::vector<LeafId> passed_;
   std::vector<bool> alone_;
 };
 

@@ -86,6 +86,15 @@ Box3 world_bounds(const PrimitiveStore& store, PrimitiveId id, const Placement& 
   return bounds;
 }
 
+double world_support(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const Vec3& n) {
+  // Taken in the local frame, along the normal mapped there. A score of roundings stand between the two terms and the
+  // exact value, the map's own included.
+  const Affine3& map = placement.world_from_local();
+  const double local = support(store, id, map.transposed_direction(n));
+  const double moved = dot(n, map.translation());
+  return local + moved + gamma(32) * (std::fabs(local) + std::fabs(moved));
+}
+
 Region classify(const PrimitiveStore& store, PrimitiveId id, const LocalBox& box) {
   // A box that reaches to infinity is never certain; neither is one whose corners overflow.
   if (!box.bounds.is_bounded()) return Region::straddles;

@@ -26,6 +26,10 @@ Box3 local_bounds(const PrimitiveStore& store, PrimitiveId id);
 /// The smallest box of the world around the placed primitive, never too small: rounding is added outward.
 Box3 world_bounds(const PrimitiveStore& store, PrimitiveId id, const Placement& placement);
 
+/// The largest n·p over the placed primitive's points p in the world, rounded up; +inf where it is unbounded. The error
+/// of the placement is not in it.
+double world_support(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const Vec3& n);
+
 /// Where a box lies with respect to the primitive.
 Region classify(const PrimitiveStore& store, PrimitiveId id, const LocalBox& box);
 

@@ -1,8 +1,9 @@
 #include "tenon/render/camera_rays.h"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "scene/camera_frame.h"
 
 namespace tenon {
 
@@ -16,21 +17,6 @@ bool is_finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// The axis that lies farthest from the view; z before y before x, so that a view from above has y at its top.
-Vec3 default_up(const Vec3& forward) {
-  const Vec3 a = abs(forward);
-  if (a.z <= a.y && a.z <= a.x) return {0, 0, 1};
-  return a.y <= a.x ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
-}
-
-Vec3 right_of(const Vec3& forward, const Vec3& up) {
-  // The cross product of two directions of length 1 is off by less than 4 rounding errors per component, so one that is
-  // no longer than 8 of them has no direction of its own.
-  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
-  const Vec3 right = cross(forward, normalize(up));
-  return normalize(length(right) > rounding ? right : cross(forward, default_up(forward)));
-}
-
 }  // namespace
 
 Result<CameraRays> CameraRays::create(const Camera& camera, int width, int height) {
@@ -42,9 +28,10 @@ Result<CameraRays> CameraRays::create(const Camera& camera, int width, int heigh
 
   ScreenView screen;
   screen.eye = camera.from;
-  screen.forward = normalize(view);
-  screen.right = right_of(screen.forward, camera.up);
-  screen.up = cross(screen.right, screen.forward);
+  const CameraFrame frame = CameraFrame::along(view, camera.up);
+  screen.forward = frame.forward;
+  screen.right = frame.right;
+  screen.up = frame.up;
   screen.width = width;
   screen.height = height;
   screen.orthographic = camera.projection == Projection::orthographic;

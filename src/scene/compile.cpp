@@ -5,6 +5,9 @@
 
 #include "csg/minimum_enclosure.h"
 #include "csg/push_attributes.h"
+#include "scene/choose_camera.h"
+#include "scene/cut_tree.h"
+#include "scene/default_lights.h"
 #include "tenon/scene/scene.h"
 
 namespace tenon {
@@ -95,8 +98,8 @@ Box3 on_tolerance_grid(const Box3& bounds, double tolerance) {
   return {snapped(bounds.lower), snapped(bounds.upper)};
 }
 
-// The bounds a view is chosen from; a scene without any (a half-space alone) is looked at around the origin.
-Box3 view_bounds(const CsgTree& tree) {
+// The bounds lights are placed by; a scene without any (a half-space alone) is lit around the origin.
+Box3 lit_bounds(const CsgTree& tree) {
   Box3 bounds = solid_bounds(tree);
   if (bounds.is_bounded()) return bounds;
   bounds = Box3::empty();
@@ -108,7 +111,7 @@ Box3 view_bounds(const CsgTree& tree) {
 
 }  // namespace
 
-Result<Scene> compile_scene(Model model, Diagnostics& diagnostics) {
+Result<Scene> compile_scene(Model model, Diagnostics& diagnostics, const ViewRequest& view) {
   auto tree = std::make_shared<CsgTree>(push_attributes(std::move(model.graph), diagnostics));
   if (tree->leaves.empty()) {
     return Error{ErrorKind::input, "the scene holds no solid; add one, such as cube(10);", {}};
@@ -120,9 +123,15 @@ Result<Scene> compile_scene(Model model, Diagnostics& diagnostics) {
     tree->has_media |= leaf.medium > medium_opaque;
   }
 
-  const Box3 bounds = view_bounds(*tree);
-  scene.camera = model.camera.value_or(default_camera(bounds));
-  scene.lights = model.lights.empty() ? default_lights(bounds, scene.camera) : std::move(model.lights);
+  const Result<LeafId> first_plane = cut_tree(*tree, model.section);
+  if (!first_plane) return first_plane.error();
+  scene.first_section_plane = *first_plane;
+  if (!model.section.empty() && SolidExtent(*tree).is_empty()) {
+    diagnostics.warn("nothing is left of the scene; each cut takes away the side that its normal points to");
+  }
+
+  scene.camera = choose_camera(view, model.camera, *tree, model.section);
+  scene.lights = model.lights.empty() ? default_lights(lit_bounds(*tree), scene.camera) : std::move(model.lights);
   scene.background = linear_from_srgb(model.background.value_or(default_background));
   scene.ambient = linear_from_srgb(model.ambient.value_or(default_ambient));
   scene.tree = std::move(tree);

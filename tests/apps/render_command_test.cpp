@@ -100,6 +100,55 @@ TEST_F(RenderCommand, CameraOnTheCommandLine) {
   }
 }
 
+TEST_F(RenderCommand, CutsTakeTheirSideAway) {
+  write("pair.scad", "color(\"red\") cube(10); color(\"blue\") translate([2, 2, 2]) cube(6);");
+  const auto middle = [&](const std::vector<std::string>& cut) {
+    std::vector<std::string> words{"render", "pair.scad", "-q", "--size", "40x40", "--camera", "5,5,60,5,5,0,20"};
+    words.insert(words.end(), cut.begin(), cut.end());
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return decode(read("pair.png"));
+  };
+  const Picture whole = middle({}), half = middle({"--cut", "x"}), plane = middle({"--cut", "-1,0,0,-5"});
+  const Picture quarter = middle({"--cut", "x/y"}), both = middle({"--cut", "x=5", "--cut", "y=5"});
+  const auto background = whole.at(0, 0);
+  const auto left_low = std::pair{14, 26}, right_low = std::pair{26, 26}, right_high = std::pair{26, 14};
+  const auto is_there = [&](const Picture& p, std::pair<int, int> at) {
+    return p.at(at.first, at.second) != background;
+  };
+  EXPECT_TRUE(is_there(whole, left_low) && is_there(whole, right_low) && is_there(whole, right_high));
+  EXPECT_TRUE(is_there(half, left_low) && !is_there(half, right_low));
+  EXPECT_TRUE(!is_there(plane, left_low) && is_there(plane, right_low));
+  EXPECT_TRUE(is_there(quarter, left_low) && is_there(quarter, right_low) && !is_there(quarter, right_high));
+  EXPECT_TRUE(is_there(both, left_low) && !is_there(both, right_low) && !is_there(both, right_high));
+}
+
+TEST_F(RenderCommand, CutsThatAreNone) {
+  for (const std::string cut : {"", "1,0,0", "w", "0,0,0,1", "x/", "x=", "--x", "1,0,0,nan1"}) {
+    const Outcome outcome = run({"render", "ball.scad", "-q", "--cut", cut});
+    EXPECT_EQ(outcome.status, 2) << cut << ": " << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "--cut takes a plane")) << cut << ": " << outcome.err;
+  }
+}
+
+TEST_F(RenderCommand, FitFillsThePictureWhateverItsShape) {
+  for (const std::string size : {"60x60", "90x30", "30x90"}) {
+    ASSERT_EQ(run({"render", "ball.scad", "-q", "--size", size, "--view", "20,10", "--fit", "--ortho"}).status, 0);
+    const Picture picture = decode(read("ball.png"));
+    const auto background = picture.at(0, 0);
+    int left = picture.width, right = -1, top = picture.height, bottom = -1;
+    for (int y = 0; y < picture.height; ++y) {
+      for (int x = 0; x < picture.width; ++x) {
+        if (picture.at(x, y) == background) continue;
+        left = std::min(left, x), right = std::max(right, x), top = std::min(top, y), bottom = std::max(bottom, y);
+      }
+    }
+    // A pixel's centre lies up to a pixel inside of what touches the edge.
+    const int free_x = std::max(left, picture.width - 1 - right), free_y = std::max(top, picture.height - 1 - bottom);
+    EXPECT_LE(std::min(free_x, free_y), 2) << size;
+  }
+}
+
 TEST_F(RenderCommand, DefinitionsReachTheScene) {
   write("sized.scad", "r = 1; camera(from = [0, -10, 0], at = [0, 0, 0], fov = 40); sphere(r);");
   ASSERT_EQ(run({"render", "sized.scad", "-q", "--size", "40x40", "-o", "small.png"}).status, 0);

@@ -110,6 +110,30 @@ TEST(Classifier, TheOwnerIsTheOneAtTheRunNotWhereTheNextChangeComes) {
   EXPECT_EQ(runs[1].owner, LeafId{0});
 }
 
+// A cut in the plane where x ends and y begins: what is left there is y alone, however rounding orders the three.
+TEST(Classifier, OfTwoSolidsThatTouchInACutTheOneThatIsLeftOwnsIt) {
+  TreeBuilder b;
+  const CsgNodeId x = b.leaf(), y = b.leaf(), cut = b.leaf();
+  const CsgTree tree = b.finish(b.subtract({b.unite({x, y}), cut}));
+  const std::vector<double> places{2 - 1e-15, 2, 2 + 1e-15};
+  for (const double end : places) {
+    for (const double begin : places) {
+      for (const double plane : places) {
+        const auto away =
+            runs_of(tree, {{span(1, end, 0, 1e-14), span(begin, 3, 1e-14), span(0, plane, 0, 1e-14)}, {}, {}});
+        ASSERT_EQ(times_of(away).size(), 2u);
+        EXPECT_EQ(away[0].owner, LeafId{1});
+        EXPECT_EQ(away[0].surface.leaf, LeafId{1});
+        const auto behind =
+            runs_of(tree, {{span(1, end, 0, 1e-14), span(begin, 3, 1e-14), span(plane, 9, 1e-14)}, {}, {}});
+        ASSERT_EQ(times_of(behind).size(), 2u);
+        EXPECT_EQ(behind[1].owner, LeafId{0});
+        EXPECT_EQ(behind[1].surface.leaf, LeafId{0});
+      }
+    }
+  }
+}
+
 // x and y end at 2, where only y matters, for z reaches on. Where y begins again, at 4, x would matter; that is not
 // here.
 TEST(Classifier, WhatShowsDoesNotDependOnWhereTheRayIsSettled) {

@@ -134,30 +134,6 @@ TEST(CompileScene, ACutFaceShowsTheToolsMaterialOnlyIfItHasOne) {
   EXPECT_EQ(cut_face(false), "base");
 }
 
-TEST(CompileScene, TheDefaultCameraSeesTheWholeSolidFromOutside) {
-  for (const Vec3 size :
-       {Vec3{1, 1, 1}, Vec3{100, 1, 1}, Vec3{1, 1, 1000}, Vec3{1e-6, 1e-6, 1e-6}, Vec3{1e6, 1e6, 0.1}}) {
-    const Vec3 corner{3, -5, 7};
-    const Box3 bounds{corner, corner + size};
-    const Camera camera = default_camera(bounds);
-    const Vec3 forward = normalize(camera.at - camera.from);
-    const Vec3 right = normalize(cross(forward, camera.up)), up = cross(right, forward);
-    // Every corner within a 4:3 picture, and some corner near its edge.
-    const double tan_x = std::tan(0.5 * camera.fov * 3.14159265358979 / 180), tan_y = 0.75 * tan_x;
-    double reach = 0;
-    for (int i = 0; i < 8; ++i) {
-      const Vec3 p{(i & 1) != 0 ? bounds.upper.x : bounds.lower.x, (i & 2) != 0 ? bounds.upper.y : bounds.lower.y,
-                   (i & 4) != 0 ? bounds.upper.z : bounds.lower.z};
-      const Vec3 v = p - camera.from;
-      const double depth = dot(v, forward);
-      ASSERT_GT(depth, 0);
-      reach = std::max({reach, std::fabs(dot(v, right)) / (depth * tan_x), std::fabs(dot(v, up)) / (depth * tan_y)});
-    }
-    EXPECT_LT(reach, 1);
-    EXPECT_GT(reach, 0.8);
-  }
-}
-
 TEST(SceneFigures, CountsWhatWasModelled) {
   SceneBuilder b;
   const Scene scene = compile(b, b.subtract({b.cube({2, 2, 2}), b.unite({b.sphere(1), b.sphere(0.5)})}));

@@ -8,6 +8,7 @@
 #include "tenon/scene/camera.h"
 #include "tenon/scene/light.h"
 #include "tenon/scene/material.h"
+#include "tenon/scene/section.h"
 
 namespace tenon {
 
@@ -17,6 +18,7 @@ struct Model {
   std::vector<Material> materials;  ///< indexed by MaterialId
   std::vector<Light> lights;        ///< empty: a studio light is chosen from the bounds
   std::optional<Camera> camera;     ///< none: a view is chosen from the bounds
+  std::vector<SectionCut> section;  ///< what a section view takes away
   std::optional<Rgba> background;
   std::optional<Rgba> ambient;  ///< Ia, the ambient light of the course
 };

@@ -11,6 +11,7 @@
 #include "tenon/scene/light.h"
 #include "tenon/scene/material.h"
 #include "tenon/scene/model.h"
+#include "tenon/scene/view_request.h"
 
 namespace tenon {
 
@@ -25,14 +26,16 @@ struct Scene {
   Camera camera;
   Rgb background;                        ///< linear
   Rgb ambient;                           ///< linear; Ia of the course
+  LeafId first_section_plane;            ///< this leaf and all behind it are planes of the section view; none without
   std::vector<double> medium_ior{1, 1};  ///< index of refraction, indexed by MediumId; outside and opaque: 1
 
   const Material& material(MaterialId id) const { return id ? materials[id.get()] : default_material; }
 };
 
 /// Compiles a model.
+/// @param view  how it is to be looked at
 /// @return the scene, or an error when it holds no solid at all
-Result<Scene> compile_scene(Model model, Diagnostics& diagnostics);
+Result<Scene> compile_scene(Model model, Diagnostics& diagnostics, const ViewRequest& view = {});
 
 /// What `tenon info` tells about a scene.
 struct SceneFigures {
@@ -49,10 +52,5 @@ SceneFigures scene_figures(const Scene& scene);
 
 /// What `tenon trace` says about the primitive of a hit: the name of its kind, and its number in tree order.
 std::string_view primitive_name(const Scene& scene, LeafId leaf);
-
-/// A view and lights that show the bounds well, for scenes that name none: three-quarter view from above, and a key
-/// and a fill light fixed to it.
-Camera default_camera(const Box3& bounds);
-std::vector<Light> default_lights(const Box3& bounds, const Camera& camera);
 
 }  // namespace tenon

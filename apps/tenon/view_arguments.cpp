@@ -1,0 +1,84 @@
+#include "view_arguments.h"
+
+#include <cmath>
+
+#include "commands.h"
+#include "numbers.h"
+#include "tenon/render/camera_rays.h"
+
+namespace tenon {
+
+namespace {
+
+Result<Camera> parse_camera(const std::string& text) {
+  const auto numbers = parse_numbers(text);
+  if (!numbers || (numbers->size() != 6 && numbers->size() != 7)) {
+    return usage_error(
+        "--camera takes six or seven numbers, from-x,y,z,at-x,y,z[,fov], such as 10,-10,8,0,0,0,40, not '" + text +
+        "'");
+  }
+  const std::vector<double>& n = *numbers;
+  Camera camera;
+  camera.from = {n[0], n[1], n[2]};
+  camera.at = {n[3], n[4], n[5]};
+  if (n.size() == 7) camera.fov = n[6];
+  if (const auto rays = CameraRays::create(camera, 1, 1); !rays) return usage_error("--" + rays.error().message);
+  return camera;
+}
+
+Result<ViewAngles> parse_angles(const std::string& text) {
+  const auto numbers = parse_numbers(text);
+  if (!numbers || numbers->size() != 2 || !(std::fabs((*numbers)[1]) <= 90) || !std::isfinite((*numbers)[0])) {
+    return usage_error(
+        "--view takes an azimuth (0 looks from +x, -90 from the front) and an elevation from -90 to 90, in degrees, "
+        "such as -60,30, not '" +
+        text + "'");
+  }
+  return ViewAngles{(*numbers)[0], (*numbers)[1]};
+}
+
+}  // namespace
+
+void ViewArguments::add_to(CLI::App& command) {
+  command
+      .add_option("--camera", camera, "In place of the scene's camera: six numbers, and a horizontal angle in degrees")
+      ->type_name("FROM,AT[,FOV]");
+  command
+      .add_option(
+          "--view", angles,
+          "Look at the whole solid from there: degrees around z (0 from +x, 90 from +y, -90 from the front) and "
+          "above the xy-plane")
+      ->type_name("AZ,EL");
+  command.add_flag("--fit", fit, "Move the camera, without turning it, until the whole solid just fills the picture");
+  command.add_flag("--ortho,--orthographic", orthographic,
+                   "Parallel rays, covering what the camera would see at the point it looks at");
+}
+
+std::string ViewArguments::words() const {
+  std::string text;
+  if (!camera.empty()) text += " --camera " + camera;
+  if (!angles.empty()) text += " --view " + angles;
+  if (fit) text += " --fit";
+  if (orthographic) text += " --orthographic";
+  return text;
+}
+
+Result<ViewRequest> plan_view(const ViewArguments& arguments, double aspect) {
+  ViewRequest request;
+  if (!arguments.camera.empty()) {
+    const Result<Camera> camera = parse_camera(arguments.camera);
+    if (!camera) return camera.error();
+    request.camera = *camera;
+  }
+  if (!arguments.angles.empty()) {
+    const Result<ViewAngles> angles = parse_angles(arguments.angles);
+    if (!angles) return angles.error();
+    request.angles = *angles;
+  }
+  request.fit = arguments.fit;
+  request.orthographic = arguments.orthographic;
+  request.aspect = aspect;
+  return request;
+}
+
+}  // namespace tenon
