@@ -47,7 +47,6 @@ SolidExtent::SolidExtent(const CsgTree& tree)
       enclosure_(finite_enclosure(tree)),
       leaf_regions_(tree),
       whole_(cells::whole_expression(tree)),
-      regions_(tree.leaves.size(), Region::straddles),
       leaf_supports_(tree.leaves.size()) {
   if (!enclosure_.is_empty()) resolution_ = relative_resolution * max_component(enclosure_.size());
 }
@@ -75,11 +74,9 @@ double SolidExtent::support(const Vec3& n) {
 }
 
 void SolidExtent::add_part(const Box3& box, const Part& whole, const Vec3& n) {
-  for (const Symbol& s : whole.expression) {
-    if (s.kind == Symbol::Kind::leaf) regions_[s.leaf.get()] = leaf_regions_.classify(s.leaf, box);
-  }
   Part part{box, {}, std::min(whole.bound, box_support(box, n)), whole.depth + 1, false};
-  const cells::Folded folded = folder_.fold(whole.expression, regions_, part.expression);
+  const cells::Folded folded = folder_.fold(
+      whole.expression, [&](LeafId id) { return leaf_regions_.classify(id, box); }, part.expression);
   if (folded.constant && !folded.value) return;
   part.inside = folded.constant;
   if (!part.inside) part.bound = std::min(part.bound, expression_support(part.expression));

@@ -53,7 +53,6 @@ class SolidExtent {
   cells::LeafRegions leaf_regions_;
   cells::LocalExpression whole_;
   cells::Folder folder_;
-  std::vector<Region> regions_;        // by LeafId
   std::vector<double> leaf_supports_;  // by LeafId, of the direction being asked for
   std::vector<Part> parts_;            // a heap
 };

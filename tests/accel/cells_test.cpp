@@ -162,7 +162,8 @@ TEST(LocalExpression, FoldedSaysWhatTheWholeSays) {
     for (std::size_t i = 0; i < tree.leaves.size(); ++i) regions.push_back(static_cast<Region>(draw.below(3)));
     Folder folder;
     LocalExpression left;
-    const cells::Folded folded = folder.fold(whole, regions, left);
+    const cells::Folded folded = folder.fold(
+        whole, [&](LeafId leaf) { return regions[leaf.get()]; }, left);
     for (int trial = 0; trial < 20; ++trial) {
       std::vector<bool> inside;
       for (const Region region : regions) {

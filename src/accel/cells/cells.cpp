@@ -194,20 +194,21 @@ Result<std::unique_ptr<Accelerator>> build_cells(const BuildInput& input, Accele
   cells::BuildQuality quality;
   switch (options.take_word("quality", {"default", "fast", "high"})) {
     case 1:
-      quality = {1.0 / 2, 1};
+      quality = {0, 1.0 / 8, 1};
       break;
     case 2:
-      quality = {1.0 / 32, 3};
+      quality = {5, 1.0 / 128, 3};
       break;
     default:
       break;
   }
+  const int threads = options.take_integer("threads", available_threads(), 1, 4096);
   if (Status status = options.finish(); !status) return status.error();
   const CsgTree& tree = input.tree;
   const Box3 enclosure = tree.root ? node_enclosures(tree)[tree.root.get()] : Box3::empty();
   if (!is_plain(tree, enclosure)) return build_accelerator("multi-kd", tree, input.view);
   CellTree cells;
-  if (!enclosure.is_empty()) cells = CellTree::build(tree, enclosure, quality, available_threads());
+  if (!enclosure.is_empty()) cells = CellTree::build(tree, enclosure, quality, threads);
   return std::unique_ptr<Accelerator>(std::make_unique<Cells>(tree, std::move(cells)));
 }
 

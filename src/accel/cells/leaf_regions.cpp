@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "accel/cells/cell_cost.h"
 #include "accel/enclosures.h"
 #include "primitive/dispatch.h"
 #include "primitive/lists.h"
@@ -23,6 +24,14 @@ double similarity_scale(const Affine3& map, double error) {
   return off <= error * a ? std::sqrt(a) : 0;
 }
 
+// Of the distance along one axis from a place to the nearest and the farthest point of an interval.
+double nearest_square(double at, double low, double high) {
+  return square(std::max({low - at, at - high, 0.0}));
+}
+double farthest_square(double at, double low, double high) {
+  return square(std::max(at - low, high - at));
+}
+
 bool maps_axes_to_axes(const Affine3& map) {
   for (int i = 0; i < 3; ++i) {
     const Vec3 row = map.row(i);
@@ -33,49 +42,88 @@ bool maps_axes_to_axes(const Affine3& map) {
 
 }  // namespace
 
-LeafRegions::LeafRegions(const CsgTree& tree) : tree_(tree), simple_(tree.leaves.size()) {
-  // Covers the leaf's errors of place (enclosure_margin), and the roundings here.
-  const double margin = enclosure_margin(tree);
+LeafRegions::LeafRegions(const CsgTree& tree, const PlacedShapes* shapes)
+    : tree_(tree), margin_(2 * enclosure_margin(tree)), leaves_(tree.leaves.size()) {
   for (std::size_t i = 0; i < tree.leaves.size(); ++i) {
     const Leaf& leaf = tree.leaves[i];
-    Simple& simple = simple_[i];
+    RegionLeaf& region = leaves_[i];
+    region.leaf = LeafId{i};
+    region.bounds = leaf.bounds;
+    if (shapes != nullptr) {
+      const double price = CellCost::of_leaf(shapes->of_leaf[i].kind(), cost(tree.primitives, leaf.primitive));
+      region.price = static_cast<float>(price);
+    }
     const Affine3& map = leaf.placement.world_from_local();
     visit(tree.primitives.lists(), leaf.primitive, [&]<class P>(const P& primitive) {
       if constexpr (std::is_same_v<P, Sphere>) {
         // No radius is larger than twice the largest coordinate, so this is another 2^-38 of it.
         const double scale = similarity_scale(map, 0x1p-40);
         if (scale == 0) return;
-        simple = {
-            Kind::ball, map.translation(), scale * primitive.r - 2 * margin, scale * primitive.r + 2 * margin, {}};
+        region.kind = RegionLeaf::Kind::ball;
+        region.center = map.translation();
+        region.inner_square = square(std::max(scale * primitive.r - margin_, 0.0));
+        region.outer_square = square(scale * primitive.r + margin_);
       } else if constexpr (std::is_same_v<P, Box>) {
-        if (maps_axes_to_axes(map)) simple = {Kind::upright_box, {}, 0, 0, grown(leaf.bounds, -2 * margin)};
+        if (maps_axes_to_axes(map)) region.kind = RegionLeaf::Kind::upright_box;
       }
     });
   }
 }
 
-Region LeafRegions::classify(LeafId id, const Box3& box) const {
-  const Leaf& leaf = tree_[id];
+Region LeafRegions::classify(const RegionLeaf& leaf, const Box3& box) const {
   if (!leaf.bounds.overlaps(box)) return Region::outside;
-  const Simple& simple = simple_[id.get()];
-  switch (simple.kind) {
-    case Kind::ball: {
-      double nearest = 0, farthest = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        const double low = box.lower[axis] - simple.center[axis], high = box.upper[axis] - simple.center[axis];
-        if (low > 0) nearest += square(low);
-        if (high < 0) nearest += square(high);
-        farthest += square(std::max(-low, high));
-      }
-      if (nearest > square(simple.outer)) return Region::outside;
-      return simple.inner > 0 && farthest < square(simple.inner) ? Region::inside : Region::straddles;
-    }
-    case Kind::upright_box:
-      return simple.core.contains(box) ? Region::inside : Region::straddles;
-    case Kind::general:
+  switch (leaf.kind) {
+    case RegionLeaf::Kind::ball:
+    case RegionLeaf::Kind::upright_box:
+      return BoxRegions(*this, leaf, box).classify(0, box.lower.x, box.upper.x);
+    case RegionLeaf::Kind::general:
       break;
   }
-  return tenon::classify(tree_.primitives, leaf.primitive, leaf.placement.to_local(box));
+  const Leaf& placed = tree_[leaf.leaf];
+  return tenon::classify(tree_.primitives, placed.primitive, placed.placement.to_local(box));
+}
+
+BoxRegions::BoxRegions(const LeafRegions& regions, const RegionLeaf& leaf, const Box3& box)
+    : regions_(&regions), leaf_(&leaf), box_(&box) {
+  std::array<double, 3> nearest{}, farthest{};
+  std::array<bool, 3> apart{}, cuts{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    const double low = box.lower[axis], high = box.upper[axis];
+    if (leaf.kind == RegionLeaf::Kind::ball) {
+      nearest[a] = nearest_square(leaf.center[axis], low, high);
+      farthest[a] = farthest_square(leaf.center[axis], low, high);
+    } else {
+      apart[a] = leaf.bounds.lower[axis] > high || low > leaf.bounds.upper[axis];
+      cuts[a] = low < leaf.bounds.lower[axis] + regions.margin_ || high > leaf.bounds.upper[axis] - regions.margin_;
+    }
+  }
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
+    nearest_[a] = nearest[b] + nearest[c];
+    farthest_[a] = farthest[b] + farthest[c];
+    apart_[a] = apart[b] || apart[c];
+    cuts_[a] = cuts[b] || cuts[c];
+  }
+}
+
+Region BoxRegions::classify(int axis, double low, double high) const {
+  const auto a = static_cast<std::size_t>(axis);
+  if (leaf_->kind == RegionLeaf::Kind::ball) {
+    if (nearest_[a] + nearest_square(leaf_->center[axis], low, high) > leaf_->outer_square) return Region::outside;
+    return farthest_[a] + farthest_square(leaf_->center[axis], low, high) < leaf_->inner_square ? Region::inside
+                                                                                                : Region::straddles;
+  }
+  const double begin = leaf_->bounds.lower[axis], end = leaf_->bounds.upper[axis];
+  if (apart_[a] || begin > high || low > end) return Region::outside;
+  if (leaf_->kind == RegionLeaf::Kind::upright_box) {
+    const bool within = low >= begin + regions_->margin_ && high <= end - regions_->margin_;
+    return within && !cuts_[a] ? Region::inside : Region::straddles;
+  }
+  Box3 part = *box_;
+  part.lower[axis] = low;
+  part.upper[axis] = high;
+  return regions_->classify(*leaf_, part);
 }
 
 }  // namespace tenon::cells

@@ -68,46 +68,6 @@ LocalExpression whole_expression(const CsgTree& tree) {
   return result;
 }
 
-Folded Folder::fold(std::span<const Symbol> expression, std::span<const Region> region_of, LocalExpression& result) {
-  result.clear();
-  frames_.clear();
-  // A frame around the whole, with one operand.
-  frames_.push_back({Symbol::Kind::all_of, expression.size(), 0, 0, {}});
-  for (std::size_t at = 0;;) {
-    Frame& frame = frames_.back();
-    if (at == frame.input_end) {
-      if (frame.operands > 0) {
-        if (frames_.size() == 1) return {};
-        finish_operation(result);
-        continue;
-      }
-      if (settle_constant({true, frame.kind == Symbol::Kind::all_of, frame.owner}, at, result)) break;
-      continue;
-    }
-    const Symbol& s = expression[at];
-    if (s.kind != Symbol::Kind::leaf) {
-      frames_.push_back({s.kind, at + s.size, result.size(), 0, s.owner});
-      result.push_back(s);
-      ++at;
-      continue;
-    }
-    ++at;
-    const Region region = region_of[s.leaf.get()];
-    if (region == Region::straddles) {
-      result.push_back(s);
-      ++frame.operands;
-      continue;
-    }
-    const bool inside = region == Region::inside;
-    const Owner owner = inside && !s.complemented ? Owner{s.leaf.get()} : Owner{};
-    if (!take_constant(inside != s.complemented, owner)) continue;
-    if (settle_constant({true, frame.kind == Symbol::Kind::any_of, frame.owner}, at, result)) break;
-  }
-  result.clear();
-  const Frame& whole = frames_.front();
-  return {true, whole.operands == 0, whole.owner};
-}
-
 // Takes a constant operand into the innermost operation.
 // @return whether that decides the operation's value
 bool Folder::take_constant(bool value, Owner owner) {

@@ -58,9 +58,11 @@ struct Folded {
 /// Folds expressions; keeps its memory between calls.
 class Folder {
  public:
-  /// @param region_of  by LeafId::get(): where the region lies with respect to each leaf of the expression
+  /// @param region_of  region_of(LeafId) -> Region: where the smaller region lies with respect to a leaf. Not asked of
+  ///                   leaves that no longer matter.
   /// @param result     what is left; empty where it is constant. Not the same as `expression`.
-  Folded fold(std::span<const Symbol> expression, std::span<const Region> region_of, LocalExpression& result);
+  template <class RegionOf>
+  Folded fold(std::span<const Symbol> expression, const RegionOf& region_of, LocalExpression& result);
 
  private:
   struct Frame {
@@ -76,6 +78,47 @@ class Folder {
 
   std::vector<Frame> frames_;
 };
+
+template <class RegionOf>
+Folded Folder::fold(std::span<const Symbol> expression, const RegionOf& region_of, LocalExpression& result) {
+  result.clear();
+  frames_.clear();
+  // A frame around the whole, with one operand.
+  frames_.push_back({Symbol::Kind::all_of, expression.size(), 0, 0, {}});
+  for (std::size_t at = 0;;) {
+    Frame& frame = frames_.back();
+    if (at == frame.input_end) {
+      if (frame.operands > 0) {
+        if (frames_.size() == 1) return {};
+        finish_operation(result);
+        continue;
+      }
+      if (settle_constant({true, frame.kind == Symbol::Kind::all_of, frame.owner}, at, result)) break;
+      continue;
+    }
+    const Symbol& s = expression[at];
+    if (s.kind != Symbol::Kind::leaf) {
+      frames_.push_back({s.kind, at + s.size, result.size(), 0, s.owner});
+      result.push_back(s);
+      ++at;
+      continue;
+    }
+    ++at;
+    const Region region = region_of(s.leaf);
+    if (region == Region::straddles) {
+      result.push_back(s);
+      ++frame.operands;
+      continue;
+    }
+    const bool inside = region == Region::inside;
+    const Owner owner = inside && !s.complemented ? Owner{s.leaf.get()} : Owner{};
+    if (!take_constant(inside != s.complemented, owner)) continue;
+    if (settle_constant({true, frame.kind == Symbol::Kind::any_of, frame.owner}, at, result)) break;
+  }
+  result.clear();
+  const Frame& whole = frames_.front();
+  return {true, whole.operands == 0, whole.owner};
+}
 
 /// The value of an expression and who owns the point, for each leaf given whether it holds the point.
 /// @param holds  holds(LeafId) -> bool

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "accel/cells/cell.h"
+#include "accel/cells/local_expression.h"
+#include "accel/cells/wide_node.h"
+
+namespace tenon::cells {
+
+/// Cells, and the expressions of those with more than six leaves.
+struct CellStore {
+  std::vector<Cell> cells;
+  std::vector<ExtendedCell> extended;  ///< Cell::table is an index into it
+  std::vector<Symbol> symbols;
+  std::vector<LeafId> extended_leaves;
+
+  std::span<const Symbol> symbols_of(const Cell& cell) const {
+    if (!cell.extended) return {};
+    const ExtendedCell& e = extended[cell.table];
+    return {symbols.data() + e.first_symbol, e.symbol_count};
+  }
+  std::span<const LeafId> leaves_of(const Cell& cell) const {
+    if (!cell.extended) return {cell.leaves.data(), cell.leaf_count};
+    const ExtendedCell& e = extended[cell.table];
+    return {extended_leaves.data() + e.first_leaf, e.leaf_count};
+  }
+
+  std::uint32_t leaf_count(const Cell& cell) const {
+    return cell.extended ? extended[cell.table].leaf_count : cell.leaf_count;
+  }
+
+  ChildRef add(const Cell& cell);
+  /// A cell with more leaves than a table has room for. Where there are too many for a ray to be followed, the
+  /// expression is left out.
+  ChildRef add_extended(std::span<const Symbol> expression, std::uint32_t leaf_count);
+
+  /// Adds the cells of another store behind these.
+  void append(const CellStore& part);
+
+  struct Mark {
+    std::size_t cells, extended, symbols, extended_leaves;
+  };
+  Mark mark() const { return {cells.size(), extended.size(), symbols.size(), extended_leaves.size()}; }
+  void rewind(const Mark& mark);
+
+  std::size_t memory_bytes() const;
+};
+
+}  // namespace tenon::cells
