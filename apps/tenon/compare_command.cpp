@@ -142,8 +142,7 @@ std::string describe(const std::string& accelerator, const Replay& replay) {
 Status CompareCommand::run() const {
   RenderArguments picture;
   picture.size = size;
-  picture.output = "-";
-  const Result<RenderPlan> plan = plan_render(picture, "");
+  const Result<RenderPlan> plan = plan_render(picture);
   if (!plan) return plan.error();
   const Result<std::vector<std::string>> specs = wanted_specs(accelerators);
   if (!specs) return specs.error();

@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "tenon/base/atomic_file.h"
+#include "tenon/base/interrupt.h"
 #include "tenon/version.h"
 
 namespace {
@@ -19,8 +20,9 @@ struct Command {
   CommandBody (*add)(CLI::App& command);
 };
 
-constexpr std::array<Command, 5> commands{{
+constexpr std::array<Command, 6> commands{{
     {"render", "Take a picture of a scene", add_render_command},
+    {"merge", "Add up parts of one picture, made on any machines in any order", add_merge_command},
     {"trace", "Follow rays through a scene; one JSON object a line", add_trace_command},
     {"compare", "Trace the same rays through every structure, and check the answers", add_compare_command},
     {"info", "Say what a scene holds", add_info_command},
@@ -29,7 +31,7 @@ constexpr std::array<Command, 5> commands{{
 
 constexpr const char* exit_statuses =
     "Exit status: 0 done, 1 the scene or an input is wrong, 2 wrong usage, 3 the machine failed (disk full, out of "
-    "memory).";
+    "memory), 130 interrupted (what is there of a picture is kept).";
 
 int report(const Error& error) {
   std::fprintf(stderr, "%s\n", format_error(error).c_str());
@@ -88,6 +90,7 @@ int run(int argc, char** argv) {
   for (std::size_t i = 0; i < commands.size(); ++i) {
     if (!parsers[i]->parsed()) continue;
     if (const Status status = bodies[i](); !status) return report(status.error());
+    if (const int signal = noted_interrupt(); signal != 0) return 128 + signal;
   }
   return 0;
 }

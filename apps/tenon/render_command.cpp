@@ -2,14 +2,17 @@
 #include <memory>
 #include <optional>
 
+#include "checkpoint.h"
 #include "commands.h"
+#include "picture_arguments.h"
+#include "picture_notes.h"
+#include "picture_output.h"
 #include "render_arguments.h"
 #include "scene_arguments.h"
 #include "statistics_json.h"
-#include "tenon/base/atomic_file.h"
-#include "tenon/image/picture_file.h"
+#include "tenon/base/interrupt.h"
 #include "tenon/render/renderer.h"
-#include "tenon/version.h"
+#include "work_arguments.h"
 
 namespace tenon {
 
@@ -19,101 +22,151 @@ struct RenderCommand {
   SceneArguments scene;
   TracingArguments tracing;
   RenderArguments render;
+  WorkArguments work;
+  PictureArguments picture;
 
   Status run() const;
-};
-
-// A file to be written when all is done, or standard output.
-class Output {
- public:
-  static Result<Output> open(const std::string& path) {
-    Output output;
-    if (path == "-") return output;
-    Result<AtomicFile> file = AtomicFile::create(path);
-    if (!file) return file.error();
-    output.file_.emplace(std::move(*file));
-    return output;
-  }
-  Status finish(std::string_view bytes) {
-    if (!file_) return write_standard_output(bytes);
-    if (Status status = file_->write(bytes); !status) return status;
-    return file_->commit();
-  }
 
  private:
-  std::optional<AtomicFile> file_;
+  Result<RenderOptions> plan_options(const RenderPlan& plan, const PicturePlan& file) const;
+  std::string dependent_arguments(const RenderOptions& options) const;
+  void say_end(Console& console, const PicturePlan& file, const FilmPart& part, const Rendering& rendering) const;
 };
 
-// What the picture depends on, and nothing else: the same picture is the same file, whatever threads, structure and
-// name it was made with.
-std::vector<PictureNote> picture_notes(const RenderCommand& command, const RenderPlan& plan) {
-  std::string line = "tenon render " + command.scene.path;
-  for (const std::string& definition : command.scene.definitions) line += " -D '" + definition + '\'';
-  line += " --facets " + command.scene.facets + " --size " + command.render.size + " --integrator " +
-          command.render.integrator + " --spp " + std::to_string(command.render.samples) + " --depth " +
-          std::to_string(plan.depth);
-  if (plan.integrator == IntegratorKind::path) line += " --seed " + std::to_string(command.render.seed);
-  for (const std::string& cut : command.scene.section.cuts) line += " --cut " + cut;
-  line += command.render.view.words();
-  return {{"Software", "tenon " + std::string(version())}, {"Title", command.scene.path}, {"Source", line}};
+// The arguments that the picture depends on. What it is taken with, in which parts, and where it goes are not among
+// them.
+std::string RenderCommand::dependent_arguments(const RenderOptions& options) const {
+  std::string text;
+  for (const std::string& definition : scene.definitions) text += " -D '" + definition + '\'';
+  text += " --facets " + scene.facets + " --size " + render.size + " --integrator " + render.integrator + " --spp " +
+          std::to_string(options.samples) + " --depth " + std::to_string(options.depth);
+  if (options.integrator == IntegratorKind::path) text += " --seed " + std::to_string(options.seed);
+  for (const std::string& cut : scene.section.cuts) text += " --cut " + cut;
+  text += render.view.words();
+  if (options.transparent) text += " --transparent";
+  if (options.noise > 0) {
+    char noise[48];
+    std::snprintf(noise, sizeof noise, " --noise %.17g", options.noise);
+    text += noise;
+  }
+  return text;
 }
 
-Result<std::string> encode(const Film& film, const RenderPlan& plan, const std::vector<PictureNote>& notes) {
-  const PictureView picture{film.width(), film.height(), film.rgb()};
-  return plan.format == PictureFormat::png ? encode_png(picture, plan.bits, notes)
-                                           : encode_exr(picture, plan.bits, notes);
+Result<RenderOptions> RenderCommand::plan_options(const RenderPlan& plan, const PicturePlan& file) const {
+  RenderOptions options;
+  options.width = plan.width;
+  options.height = plan.height;
+  options.integrator = plan.integrator;
+  options.depth = plan.depth;
+  options.seed = render.seed;
+  // Whatever file the picture ends in: parts of it are kept as EXR, and are to add up to the same.
+  options.threshold = invisible_share(16);
+  options.threads = tracing.thread_count();
+  options.transparent = render.transparent;
+  options.layers = file.layers;
+  if (Status status = plan_work(work, options); !status) return status.error();
+  if (Status status = check_memory(Film::bytes(film_window(options), film_layers(options)), render.size); !status) {
+    return status.error();
+  }
+  return options;
 }
 
-void say_done(Console& console, const RenderPlan& plan, const Rendering& rendering) {
+void RenderCommand::say_end(Console& console, const PicturePlan& file, const FilmPart& part,
+                            const Rendering& rendering) const {
+  const PixelWindow& window = part.film.window();
   const auto rays = static_cast<double>(rendering.statistics.total().rays);
   char text[128];
-  std::snprintf(text, sizeof text, ": %dx%d, %.3g million rays in %.2f s", plan.width, plan.height, rays / 1e6,
+  std::snprintf(text, sizeof text, ": %dx%d, %.3g million rays in %.2f s", window.width(), window.height(), rays / 1e6,
                 rendering.seconds);
-  console.progress().say("tenon: " + (plan.output == "-" ? "standard output" : plan.output) + text);
+  std::string line = "tenon: " + (file.output == "-" ? "standard output" : file.output) + text;
+  if (rendering.end != RenderEnd::finished) {
+    std::uint64_t samples = 0;
+    for (const std::uint32_t of_pixel : part.film.planes().samples) samples += of_pixel;
+    const double mean = static_cast<double>(samples) / static_cast<double>(window.pixels());
+    std::snprintf(text, sizeof text, "; %s, with %.1f samples a pixel",
+                  rendering.end == RenderEnd::interrupted ? "interrupted" : "time is over", mean);
+    line += text;
+  }
+  console.progress().say(line);
 }
 
 Status RenderCommand::run() const {
-  const Result<RenderPlan> plan = plan_render(render, scene.stem());
+  const std::string stem = scene.stem();
+  const Result<PicturePlan> file = plan_picture(picture, stem.empty() ? "" : stem + ".png");
+  if (!file) return file.error();
+  if (file->output == "-" && render.statistics == "-") {
+    return usage_error("the picture and the statistics cannot both go to standard output");
+  }
+  const Result<RenderPlan> plan = plan_render(render);
   if (!plan) return plan.error();
+  const Result<RenderOptions> options = plan_options(*plan, *file);
+  if (!options) return options.error();
+
   Console console(scene.quiet);
-  const PictureRequest picture{plan->view, plan->width, plan->height};
-  const Result<TraceableScene> traceable = prepare(scene, tracing, console, &picture);
+  const PictureRequest request{plan->view, plan->width, plan->height};
+  const Result<TraceableScene> traceable = prepare(scene, tracing, console, &request);
   if (!traceable) return traceable.error();
 
-  // Both files are begun now: better to learn that a place cannot be written before an hour of rendering than after.
-  Result<Output> picture_file = Output::open(plan->output);
+  FilmPart part;
+  part.layers = file->layers;
+  part.transparent = render.transparent;
+  part.bits = file->format == PictureFormat::exr ? file->bits : 32;
+  part.samples = options->samples;
+  part.notes = picture_notes(
+      {scene.path, dependent_arguments(*options), traceable->fingerprint, options->seed, traceable->scene.camera});
+
+  // All files are begun now: better to learn that a place cannot be written before an hour of rendering than after.
+  Result<Output> picture_file = Output::open(file->output);
   if (!picture_file) return picture_file.error();
   std::optional<Output> statistics_file;
   if (!render.statistics.empty()) {
-    Result<Output> file = Output::open(render.statistics);
-    if (!file) return file.error();
-    statistics_file.emplace(std::move(*file));
+    Result<Output> opened = Output::open(render.statistics);
+    if (!opened) return opened.error();
+    statistics_file.emplace(std::move(*opened));
+  }
+  std::optional<Checkpoint> checkpoint;
+  std::optional<Film> resumed;
+  if (!work.checkpoint.empty()) {
+    checkpoint.emplace(work.checkpoint, part);
+    if (Status status = checkpoint->check(); !status) return status;
+    if (work.resume) {
+      Result<std::optional<Film>> film = checkpoint->load(*options);
+      if (!film) return film.error();
+      resumed = std::move(*film);
+    }
   }
 
-  RenderOptions options;
-  options.width = plan->width;
-  options.height = plan->height;
-  options.samples = render.samples;
-  options.integrator = plan->integrator;
-  options.depth = plan->depth;
-  options.seed = render.seed;
-  options.threshold = invisible_share(plan->bits == 8 ? 8 : 16);
-  options.threads = tracing.thread_count();
+  const InterruptDeferral deferral;
+  RenderControl control;
+  control.progress = &console.progress().counters();
+  control.interrupted = [] { return noted_interrupt() != 0; };
+  control.resumed = resumed ? &*resumed : nullptr;
+  if (checkpoint) {
+    control.checkpoint_seconds = work.checkpoint_seconds;
+    control.checkpoint = [&](const Film& film, const std::vector<SampleBox>& done) {
+      checkpoint->save(film, done, console);
+    };
+  }
   console.progress().begin("rendering");
-  const Result<Rendering> rendering =
-      tenon::render(traceable->scene, *traceable->accelerator, options, &console.progress().counters());
+  Result<Rendering> rendering = tenon::render(traceable->scene, *traceable->accelerator, *options, control);
   if (!rendering) return rendering.error();
 
-  console.progress().begin("writing " + plan->output);
-  const Result<std::string> bytes = encode(rendering->film, *plan, picture_notes(*this, *plan));
+  console.progress().begin("writing " + file->output);
+  const bool finished = rendering->end == RenderEnd::finished;
+  if (checkpoint && !finished) checkpoint->save(rendering->film, rendering->done, console);
+  part.film = std::move(rendering->film);
+  part.done = std::move(rendering->done);
+  if (options->crop) part = cropped(part, *options->crop);
+  const Result<std::string> bytes = encode(part, *file);
   if (!bytes) return bytes.error();
   if (Status status = picture_file->finish(*bytes); !status) return status;
+  if (checkpoint && finished) checkpoint->remove();
   if (statistics_file) {
     const std::string json = statistics_json(tracing.accelerator, *traceable, *rendering);
     if (Status status = statistics_file->finish(json); !status) return status;
   }
   console.progress().end();
-  if (!scene.quiet) say_done(console, *plan, *rendering);
+  if (!scene.quiet) say_end(console, *file, part, *rendering);
   return success();
 }
 
@@ -122,7 +175,10 @@ Status RenderCommand::run() const {
 CommandBody add_render_command(CLI::App& command) {
   const auto arguments = std::make_shared<RenderCommand>();
   arguments->scene.add_to(command);
+  arguments->picture.add_to(command);
+  arguments->picture.add_layers_to(command);
   arguments->render.add_to(command);
+  arguments->work.add_to(command);
   arguments->tracing.add_to(command);
   return [arguments] { return arguments->run(); };
 }

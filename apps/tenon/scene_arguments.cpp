@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "commands.h"
+#include "tenon/base/fingerprint.h"
 #include "tenon/base/parallel_for.h"
 #include "tenon/lang/load.h"
 #include "tenon/render/camera_rays.h"
@@ -114,6 +115,7 @@ Result<TraceableScene> prepare(const SceneArguments& arguments, const TracingArg
   Result<Model> model = load(arguments, console);
   if (!model) return model.error();
   console.progress().begin("compiling " + arguments.path);
+  const std::string scene_fingerprint = picture != nullptr ? fingerprint(print_csg(*model)) : "";
   Result<Scene> scene =
       compile_scene(std::move(*model), console.diagnostics(), picture != nullptr ? picture->view : ViewRequest{});
   if (!scene) return scene.error();
@@ -126,7 +128,7 @@ Result<TraceableScene> prepare(const SceneArguments& arguments, const TracingArg
 
   Result<BuiltAccelerator> built = build_timed(tracing.accelerator, *scene, screen ? &*screen : nullptr, console);
   if (!built) return built.error();
-  return TraceableScene{std::move(*scene), std::move(built->accelerator), built->seconds};
+  return TraceableScene{std::move(*scene), std::move(built->accelerator), built->seconds, scene_fingerprint};
 }
 
 Result<BuiltAccelerator> build_timed(const std::string& spec, const Scene& scene, const ScreenView* view,

@@ -69,6 +69,7 @@ struct TraceableScene {
   Scene scene;
   std::unique_ptr<Accelerator> accelerator;
   double build_seconds = 0;
+  std::string fingerprint;  ///< of what the file says once it is evaluated; only where there is a picture
 };
 
 /// The picture a scene is prepared for.

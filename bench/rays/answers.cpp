@@ -4,7 +4,7 @@
 
 #include "tenon/base/atomic_file.h"
 #include "tenon/image/picture_file.h"
-#include "tenon/render/film.h"
+#include "tenon/math/color.h"
 
 namespace tenon::bench {
 
@@ -18,7 +18,7 @@ std::size_t count_disagreements(const std::vector<Answer>& a, const std::vector<
 }
 
 Status save_answers(const RaySet& primary, const std::vector<Answer>& answers, const std::string& path) {
-  Film film(picture_width, picture_height);
+  std::vector<float> rgb(3 * static_cast<std::size_t>(picture_width) * picture_height);
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const PixelPlace place = pixel_place(i);
     Rgb color{0.3, 0.4, 0.6};
@@ -29,9 +29,12 @@ Status save_answers(const RaySet& primary, const std::vector<Answer>& answers, c
       const double light = 0.2 + 0.8 * std::fabs(facing);
       color = light * Rgb{0.5 + 0.4 * n.x, 0.5 + 0.4 * n.y, 0.5 + 0.4 * n.z};
     }
-    film.set(place.x, place.y, color);
+    float* pixel = &rgb[3 * (static_cast<std::size_t>(place.y) * picture_width + static_cast<std::size_t>(place.x))];
+    pixel[0] = static_cast<float>(color.r);
+    pixel[1] = static_cast<float>(color.g);
+    pixel[2] = static_cast<float>(color.b);
   }
-  const Result<std::string> png = encode_png({film.width(), film.height(), film.rgb()}, 8, {});
+  const Result<std::string> png = encode_png({picture_width, picture_height, rgb, {}}, 8, {});
   if (!png) return png.error();
   Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return file.error();

@@ -7,6 +7,7 @@
 #include "tenon/accel/accelerator.h"
 #include "tenon/base/atomic_file.h"
 #include "tenon/exchange/pov.h"
+#include "tenon/film/film_picture.h"
 #include "tenon/image/picture_file.h"
 #include "tenon/math/color.h"
 #include "tenon/render/renderer.h"
@@ -21,7 +22,7 @@ std::string read_file(const std::string& path) {
 }
 
 Status save_picture(std::span<const float> rgb, const std::string& path) {
-  const Result<std::string> png = encode_png({picture_width, picture_height, rgb}, 8, {});
+  const Result<std::string> png = encode_png({picture_width, picture_height, rgb, {}}, 8, {});
   if (!png) return png.error();
   Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return file.error();
@@ -108,8 +109,9 @@ Status run_povray(const PartOptions& options, Report& report) {
     report.rate(name, "picture", theirs, rays, &own);
     ratios.push_back(ratio(theirs, own));
     const std::vector<float> picture = povray_picture(base);
-    report.figure(name, "pixels that differ", static_cast<double>(different_pixels(film.rgb(), picture)), "");
-    if (Status status = save_picture(film.rgb(), base + "_picture_tenon.png"); !status) return status;
+    const std::vector<float> drawn = display_pixels(film_picture(film, {}, 32), {}, false).rgb;
+    report.figure(name, "pixels that differ", static_cast<double>(different_pixels(drawn, picture)), "");
+    if (Status status = save_picture(drawn, base + "_picture_tenon.png"); !status) return status;
     if (Status status = save_picture(picture, base + "_picture_povray.png"); !status) return status;
   }
   report.summary("tenon against POV-Ray, shading included", ratios);

@@ -13,6 +13,8 @@
 #include <cstring>
 #include <utility>
 
+#include "base/note_interrupt.h"
+
 namespace tenon {
 
 namespace {
@@ -44,6 +46,7 @@ void unregister_temporary(int slot) {
 }
 
 extern "C" void end_by_signal(int signal) {
+  if (note_interrupt(signal)) return;
   for (const TemporaryName& name : temporary_names) {
     if (name.valid) unlink(name.path.data());
   }

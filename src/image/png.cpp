@@ -57,33 +57,40 @@ std::vector<png_text> text_chunks(std::span<const PictureNote> notes) {
   return chunks;
 }
 
-// A row of components, most significant byte first.
-void encode_row(const float* light, std::size_t components, int bits, std::uint8_t* out) {
-  for (std::size_t i = 0; i < components; ++i) {
-    const double encoded = srgb_from_linear(static_cast<double>(light[i]));
-    if (bits == 8) {
-      out[i] = static_cast<std::uint8_t>(std::lround(encoded * 255));
-    } else {
-      const auto value = static_cast<std::uint32_t>(std::lround(encoded * 65535));
-      out[2 * i] = static_cast<std::uint8_t>(value >> 8U);
-      out[2 * i + 1] = static_cast<std::uint8_t>(value & 0xFFU);
-    }
+void put(double encoded, int bits, std::uint8_t*& out) {
+  if (bits == 8) {
+    *out++ = static_cast<std::uint8_t>(std::lround(encoded * 255));
+    return;
+  }
+  const auto value = static_cast<std::uint32_t>(std::lround(encoded * 65535));
+  *out++ = static_cast<std::uint8_t>(value >> 8U);
+  *out++ = static_cast<std::uint8_t>(value & 0xFFU);
+}
+
+// A row of pixels, most significant byte first. Alpha is a share, not light: it is not sRGB-encoded.
+void encode_row(const DisplayPicture& picture, int y, int bits, std::uint8_t* out) {
+  const std::size_t begin = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width);
+  for (std::size_t i = begin; i < begin + static_cast<std::size_t>(picture.width); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) put(srgb_from_linear(static_cast<double>(picture.rgb[3 * i + c])), bits, out);
+    if (picture.alpha.empty()) continue;
+    const float alpha = picture.alpha[i];
+    put(alpha > 0 ? std::min(1.0, static_cast<double>(alpha)) : 0, bits, out);
   }
 }
 
 // False when libpng gave up. The calls that may jump back here touch nothing but their arguments.
-bool write_png(png_structp png, png_infop info, const PictureView& picture, int bits,
+bool write_png(png_structp png, png_infop info, const DisplayPicture& picture, int bits,
                const std::vector<png_text>& chunks, std::vector<std::uint8_t>& row) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;  // NOLINT(cert-err52-cpp)
   png_set_user_limits(png, 0x7FFFFFFF, 0x7FFFFFFF);
   png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width), static_cast<png_uint_32>(picture.height), bits,
-               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+               picture.alpha.empty() ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   if (!chunks.empty()) png_set_text(png, info, chunks.data(), static_cast<int>(chunks.size()));
   png_write_info(png, info);
-  const std::size_t components = 3 * static_cast<std::size_t>(picture.width);
   for (int y = 0; y < picture.height; ++y) {
-    encode_row(picture.rgb.data() + static_cast<std::size_t>(y) * components, components, bits, row.data());
+    encode_row(picture, y, bits, row.data());
     png_write_row(png, row.data());
   }
   png_write_end(png, info);
@@ -92,10 +99,11 @@ bool write_png(png_structp png, png_infop info, const PictureView& picture, int 
 
 }  // namespace
 
-Result<std::string> encode_png(const PictureView& picture, int bits, std::span<const PictureNote> notes) {
+Result<std::string> encode_png(const DisplayPicture& picture, int bits, std::span<const PictureNote> notes) {
   PngOutput out;
   const std::vector<png_text> chunks = text_chunks(notes);
-  std::vector<std::uint8_t> row(3 * static_cast<std::size_t>(picture.width) * (bits == 16 ? 2 : 1));
+  const std::size_t components = picture.alpha.empty() ? 3 : 4;
+  std::vector<std::uint8_t> row(components * static_cast<std::size_t>(picture.width) * (bits == 16 ? 2 : 1));
 
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &out, on_error, on_warning);
   png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;

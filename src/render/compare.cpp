@@ -137,7 +137,7 @@ Result<StoredRays> StoredRays::record(const Scene& scene, const Accelerator& ora
   const LitScene lit(scene);
   const Recorder recorder(oracle, lit, rays);
   options.threads = 1;
-  const Result<Rendering> rendering = render(scene, recorder, options, progress);
+  const Result<Rendering> rendering = render(scene, recorder, options, {.progress = progress});
   if (!rendering) return rendering.error();
   return rays;
 }

@@ -49,6 +49,13 @@ double LitLight::spot_share(const Vec3& to_light) const {
   return x * x * (3 - 2 * x);
 }
 
+Rgb LitScene::albedo(const Hit& hit) const {
+  const Reflectance& surface = reflectance(hit.material);
+  const double specular = surface.specular + surface.transmitted;
+  const auto share = [specular](double diffuse) { return std::clamp(diffuse + specular, 0.0, 1.0); };
+  return {share(surface.diffuse.r), share(surface.diffuse.g), share(surface.diffuse.b)};
+}
+
 LitScene::LitScene(const Scene& scene)
     : default_material_(reflectance_of(scene.default_material, scene.ambient)),
       medium_ior_(scene.medium_ior),

@@ -46,6 +46,8 @@ class LitScene {
   explicit LitScene(const Scene& scene);
 
   const Reflectance& reflectance(MaterialId id) const { return id ? materials_[id.get()] : default_material_; }
+  /// The share of light that the surface returns, in whatever direction.
+  Rgb albedo(const Hit& hit) const;
   const std::vector<LitLight>& lights() const { return lights_; }
   const Rgb& background() const { return background_; }
   const Rgb& ambient() const { return ambient_; }

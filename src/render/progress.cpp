@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <system_error>
 
 namespace tenon {
@@ -35,6 +36,20 @@ std::string rate_text(double rays_per_second) {
   return text.data();
 }
 
+// By how fast the work has gone since it began, or until time is over.
+std::optional<double> seconds_left(const ProgressFigures& f) {
+  std::optional<double> left;
+  if (f.done > f.before) {
+    left =
+        f.seconds * static_cast<double>(f.total - std::min(f.total, f.done)) / static_cast<double>(f.done - f.before);
+  }
+  if (f.seconds_allowed > 0) {
+    const double allowed = std::max(0.0, f.seconds_allowed - f.seconds);
+    left = std::min(left.value_or(allowed), allowed);
+  }
+  return left;
+}
+
 }  // namespace
 
 std::string progress_text(const ProgressFigures& f, bool with_bar) {
@@ -51,7 +66,7 @@ std::string progress_text(const ProgressFigures& f, bool with_bar) {
     text += " [" + std::string(filled, '#') + std::string(bar_width - filled, '.') + "]";
   }
   if (f.rays > 0 && f.seconds > 0) text += "  " + rate_text(static_cast<double>(f.rays) / f.seconds);
-  if (share > 0) text += ", " + clock_text(f.seconds * (1 - share) / share) + " left";
+  if (const auto left = seconds_left(f)) text += ", " + clock_text(*left) + " left";
   return text;
 }
 
@@ -79,6 +94,8 @@ void ProgressDisplay::begin(std::string what) {
   erase();
   counters_.total = 0;
   counters_.done = 0;
+  counters_.before = 0;
+  counters_.seconds_allowed = 0;
   counters_.rays = 0;
   what_ = std::move(what);
   begun_ = Clock::now();
@@ -115,8 +132,9 @@ void ProgressDisplay::watch(const std::stop_token& stop) {
 
 void ProgressDisplay::show() {
   const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
-  std::string text =
-      progress_text({*what_, counters_.total, counters_.done, counters_.rays, seconds}, style_ == ProgressStyle::bar);
+  std::string text = progress_text(
+      {*what_, counters_.total, counters_.done, counters_.rays, seconds, counters_.before, counters_.seconds_allowed},
+      style_ == ProgressStyle::bar);
   if (style_ == ProgressStyle::lines) {
     std::fprintf(out_, "tenon: %s\n", text.c_str());
   } else {

@@ -1,127 +1,189 @@
 #include "tenon/render/renderer.h"
 
+#include <algorithm>
+#include <atomic>
+#include <cassert>
 #include <chrono>
 #include <memory>
-#include <vector>
 
-#include "render/lit_scene.h"
-#include "render/path.h"
-#include "render/pixel_samples.h"
+#include "render/noise.h"
+#include "render/tile_worker.h"
 #include "render/tiles.h"
-#include "render/whitted.h"
 #include "tenon/base/parallel_for.h"
-#include "tenon/render/camera_rays.h"
 
 namespace tenon {
 
 namespace {
 
-std::unique_ptr<Integrator> make_integrator(const LitScene& scene, const Accelerator& accelerator,
-                                            const RenderOptions& options) {
-  if (options.integrator == IntegratorKind::path) {
-    return std::make_unique<PathIntegrator>(scene, accelerator, Sampler(options.seed), options.depth);
-  }
-  return std::make_unique<WhittedIntegrator>(scene, accelerator, RecursionLimits{options.depth, options.threshold});
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begun) {
+  return std::chrono::duration<double>(Clock::now() - begun).count();
 }
 
-// What one thread needs to render tiles. Primary rays go to the accelerator one sample of a whole tile at a time.
-class TileWorker {
+/// Takes the samples of a film, in rounds over its tiles.
+class FilmWork {
  public:
-  TileWorker(const LitScene& scene, const Accelerator& accelerator, const CameraRays& camera,
-             const RenderOptions& options)
-      : accelerator_(accelerator),
-        camera_(camera),
-        samples_(static_cast<std::uint32_t>(options.samples)),
-        sampler_(options.seed),
-        is_random_(options.integrator == IntegratorKind::path),
-        context_(accelerator.make_context()),
-        integrator_(make_integrator(scene, accelerator, options)) {}
-
-  void render(const Tile& tile, Film& film) {
-    sums_.assign(tile.pixels(), Rgb{});
-    for (std::uint32_t sample = 0; sample < samples_; ++sample) {
-      aim(tile, sample);
-      accelerator_.first_hits(queries_, hits_, *context_);
-      integrator_->radiance(queries_, hits_, ids_, light_, *context_);
-      for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += light_[i];
-    }
-    const double share = 1.0 / samples_;
-    std::size_t i = 0;
-    for (int y = tile.y0; y < tile.y1; ++y) {
-      for (int x = tile.x0; x < tile.x1; ++x) film.set(x, y, sums_[i++] * share);
-    }
-  }
-
-  const TraversalStatistics& statistics() const { return context_->statistics; }
-
- private:
-  void aim(const Tile& tile, std::uint32_t sample) {
-    queries_.resize(tile.pixels());
-    hits_.resize(tile.pixels());
-    ids_.resize(tile.pixels());
-    light_.resize(tile.pixels());
-    const PixelSample shared = pixel_sample(sample, samples_);
-    std::size_t i = 0;
-    for (int y = tile.y0; y < tile.y1; ++y) {
-      for (int x = tile.x0; x < tile.x1; ++x) {
-        const SampleId id = ids_[i] = {x, y, sample};
-        RayQuery& query = queries_[i++];
-        const Sample2 drawn = is_random_ ? sampler_(id, sample_pair::pixel) : Sample2{shared.x, shared.y};
-        query.ray = camera_.ray(x + drawn.u, y + drawn.v);
-        query.pixel_x = x;
-        query.pixel_y = y;
+  FilmWork(const RenderOptions& options, const RenderControl& control, Film& film)
+      : options_(options),
+        control_(control),
+        film_(film),
+        tiles_(film.window()),
+        first_(options.first_sample),
+        end_(options.end_sample.value_or(options.samples)) {
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+      const PixelWindow tile = tiles_[i];
+      const std::uint32_t taken = film.samples(tile.x0, tile.y0);
+      reached_.push_back(first_ + taken);
+      settled_.push_back(is_settled(i));
+      if (control.progress != nullptr) {
+        control.progress->total += tile.pixels() * (end_ - first_);
+        control.progress->before += tile.pixels() * (settled_[i] ? end_ - first_ : taken);
       }
     }
+    if (control.progress == nullptr) return;
+    control.progress->done = control.progress->before.load();
+    control.progress->seconds_allowed = options.seconds;
   }
 
-  const Accelerator& accelerator_;
-  const CameraRays& camera_;
-  std::uint32_t samples_;
-  Sampler sampler_;
-  bool is_random_;
-  std::unique_ptr<TraceContext> context_;
-  std::unique_ptr<Integrator> integrator_;
-  std::vector<SampleId> ids_;
-  std::vector<RayQuery> queries_;
-  std::vector<Hit> hits_;
-  std::vector<Rgb> light_;
-  std::vector<Rgb> sums_;
+  std::size_t tiles() const { return tiles_.size(); }
+
+  /// @return how the work ended
+  RenderEnd run(std::vector<std::unique_ptr<TileWorker>>& workers) {
+    for (;;) {
+      const std::vector<std::size_t> round = next_round();
+      if (round.empty()) return RenderEnd::finished;
+      std::atomic<bool> halted{false};
+      parallel_for(round.size(), static_cast<int>(workers.size()), [&](std::size_t i, int number) {
+        if (halted || wants_break()) halted = true;
+        if (!halted) advance(round[i], *workers[static_cast<std::size_t>(number)]);
+      });
+      if (is_interrupted()) return RenderEnd::interrupted;
+      if (is_out_of_time()) return RenderEnd::out_of_time;
+      if (!is_checkpoint_due()) continue;
+      control_.checkpoint(film_, done());
+      checkpoint_ = Clock::now();
+    }
+  }
+
+  std::vector<SampleBox> done() const {
+    std::vector<SampleBox> boxes;
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+      const std::uint32_t reached = settled_[i] ? end_ : reached_[i];
+      if (reached > first_) boxes.push_back({tiles_[i], first_, reached});
+    }
+    return joined(std::move(boxes));
+  }
+
+ private:
+  // The first rounds double the samples. Later ones are short enough for a tile not to keep an end waiting.
+  std::uint32_t round_end(std::uint32_t reached) const {
+    constexpr std::uint32_t longest = 16;
+    const std::uint32_t taken = reached - first_;
+    const std::uint32_t more = taken == 0 ? 1 : std::min(taken, longest - taken % longest);
+    return std::min(end_, reached + more);
+  }
+
+  // The tiles that are furthest behind; none when all are done.
+  std::vector<std::size_t> next_round() {
+    least_ = end_;
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+      if (!settled_[i]) least_ = std::min(least_, reached_[i]);
+    }
+    std::vector<std::size_t> round;
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+      if (!settled_[i] && reached_[i] == least_) round.push_back(i);
+    }
+    return round;
+  }
+
+  void advance(std::size_t i, TileWorker& worker) {
+    const PixelWindow tile = tiles_[i];
+    const std::uint32_t end = round_end(reached_[i]);
+    const std::uint64_t rays_before = worker.statistics().total().rays;
+    worker.take(tile, reached_[i], end, film_);
+    std::uint64_t done = tile.pixels() * (end - reached_[i]);
+    reached_[i] = end;
+    settled_[i] = is_settled(i);
+    if (control_.progress == nullptr) return;
+    if (settled_[i]) done += tile.pixels() * (end_ - end);
+    control_.progress->done += done;
+    control_.progress->rays += worker.statistics().total().rays - rays_before;
+  }
+
+  // Follows from the tile's own samples alone, so that parts of a picture agree, and so does work that is taken up
+  // again: tiles are only ever left at the end of a round.
+  bool is_settled(std::size_t i) const {
+    if (reached_[i] == end_) return true;
+    if (!(options_.noise > 0) || reached_[i] < least_samples_for_noise) return false;
+    return noise(film_, tiles_[i]) <= options_.noise;
+  }
+
+  bool is_interrupted() const { return control_.interrupted && control_.interrupted(); }
+  // A picture without any sample in some of its pixels is of no use to anybody.
+  bool is_out_of_time() const {
+    return options_.seconds > 0 && least_ > first_ && seconds_since(begun_) >= options_.seconds;
+  }
+  bool is_checkpoint_due() const {
+    return control_.checkpoint && seconds_since(checkpoint_) >= control_.checkpoint_seconds;
+  }
+  bool wants_break() const { return is_interrupted() || is_out_of_time() || is_checkpoint_due(); }
+
+  const RenderOptions& options_;
+  const RenderControl& control_;
+  Film& film_;
+  TileGrid tiles_;
+  std::uint32_t first_, end_;
+  std::vector<std::uint32_t> reached_;  // by tile: the first sample that is not taken
+  std::vector<char> settled_;           // by tile: it needs no more samples
+  std::uint32_t least_ = 0;             // where the round began
+  Clock::time_point begun_ = Clock::now(), checkpoint_ = begun_;
 };
+
+bool shows_surfaces(const Layers& layers) {
+  return keeps_first(layers) || layers.has(Layer::normal) || layers.has(Layer::albedo);
+}
 
 }  // namespace
 
+PixelWindow film_window(const RenderOptions& options) {
+  const PixelWindow part = options.crop.value_or(PixelWindow{0, 0, options.width, options.height});
+  return options.noise > 0 ? whole_tiles(part, options.width, options.height) : part;
+}
+
+Layers film_layers(const RenderOptions& options) {
+  Layers layers = options.layers;
+  if (options.noise > 0) layers.add(Layer::variance);
+  // These two are no planes of a film.
+  return layers.remove(Layer::samples).remove(Layer::sums);
+}
+
 Result<Rendering> render(const Scene& scene, const Accelerator& accelerator, const RenderOptions& options,
-                         ProgressCounters* progress) {
-  const auto begun = std::chrono::steady_clock::now();
+                         const RenderControl& control) {
+  const auto begun = Clock::now();
   const Result<CameraRays> camera = CameraRays::create(scene.camera, options.width, options.height);
   if (!camera) return camera.error();
   const LitScene lit(scene);
-  const TileGrid tiles(options.width, options.height, options.tile_size);
+  std::optional<SurfaceFeatures> features;
+  if (shows_surfaces(options.layers)) features.emplace(scene, lit);
 
   Rendering rendering;
-  rendering.film = Film(options.width, options.height);
+  rendering.film = control.resumed != nullptr
+                       ? std::move(*control.resumed)
+                       : Film(options.width, options.height, film_window(options), film_layers(options));
+  assert(rendering.film.window() == film_window(options) && rendering.film.layers() == film_layers(options));
+  FilmWork work(options, control, rendering.film);
   const int wanted = options.threads > 0 ? options.threads : available_threads();
-  rendering.threads = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(wanted), tiles.size()));
+  rendering.threads = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(wanted), work.tiles()));
   std::vector<std::unique_ptr<TileWorker>> workers;
   for (int i = 0; i < rendering.threads; ++i) {
-    workers.push_back(std::make_unique<TileWorker>(lit, accelerator, *camera, options));
+    workers.push_back(
+        std::make_unique<TileWorker>(lit, features ? &*features : nullptr, accelerator, *camera, options));
   }
-  if (progress != nullptr) {
-    progress->total = static_cast<std::uint64_t>(options.width) * static_cast<std::uint64_t>(options.height) *
-                      static_cast<std::uint64_t>(options.samples);
-  }
-
-  parallel_for(tiles.size(), rendering.threads, [&](std::size_t index, int number) {
-    TileWorker& worker = *workers[static_cast<std::size_t>(number)];
-    const std::uint64_t rays_before = worker.statistics().total().rays;
-    worker.render(tiles[index], rendering.film);
-    if (progress == nullptr) return;
-    progress->done += tiles[index].pixels() * static_cast<std::uint64_t>(options.samples);
-    progress->rays += worker.statistics().total().rays - rays_before;
-  });
-
+  rendering.end = work.run(workers);
+  rendering.done = work.done();
   for (const auto& worker : workers) rendering.statistics += worker->statistics();
-  rendering.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  rendering.seconds = seconds_since(begun);
   return rendering;
 }
 

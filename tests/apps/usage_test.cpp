@@ -12,7 +12,7 @@ class Usage : public ProgramTest {
 };
 
 TEST_F(Usage, HelpAndVersionOfEveryCommand) {
-  const std::vector<std::vector<std::string>> commands{{}, {"render"}, {"trace"}, {"info"}, {"convert"}};
+  const std::vector<std::vector<std::string>> commands{{}, {"render"}, {"merge"}, {"trace"}, {"info"}, {"convert"}};
   for (std::vector<std::string> words : commands) {
     words.push_back("--help");
     const Outcome help = run(words);
@@ -29,8 +29,8 @@ TEST_F(Usage, HelpAndVersionOfEveryCommand) {
 // Each wrong command line, and what its message must name.
 TEST_F(Usage, ErrorsSayWhatIsWrongAndWriteNothing) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
-      {{}, "render, trace, compare, info, convert"},
-      {{"compair", "a.scad"}, "'compair'; there are: render, trace, compare, info, convert"},
+      {{}, "render, merge, trace, compare, info, convert"},
+      {{"compair", "a.scad"}, "'compair'; there are: render, merge, trace, compare, info, convert"},
       {{"a.scad"}, "there is no command 'a.scad'"},
       {{"--frobnicate"}, "--frobnicate"},
       {{"render"}, "SCENE"},
@@ -64,6 +64,21 @@ TEST_F(Usage, ErrorsSayWhatIsWrongAndWriteNothing) {
       {{"render", "a.scad", "--facets", "perhaps"}, "--facets"},
       {{"render", "-"}, "-o"},
       {{"render", "a.scad", "-o", "-", "--stats", "-"}, "standard output"},
+      {{"render", "a.scad", "--crop", "1,2,3"}, "--crop takes x0,y0,x1,y1"},
+      {{"render", "a.scad", "--crop", "0,0,641,10"}, "within 640x480"},
+      {{"render", "a.scad", "--crop", "9,9,9,10"}, "--crop"},
+      {{"render", "a.scad", "--samples", "0:2"}, "of the 1 that --spp asks for"},
+      {{"render", "a.scad", "--spp", "4", "--samples", "2:2"}, "--samples"},
+      {{"render", "a.scad", "--spp", "4", "--samples", "0:2", "--noise", "0.1"}, "--crop in place of --samples"},
+      {{"render", "a.scad", "--resume"}, "--checkpoint"},
+      {{"render", "a.scad", "--time", "0"}, "--time"},
+      {{"render", "a.scad", "--layers", "Z"}, "a PNG picture has no layers"},
+      {{"render", "a.scad", "-o", "x.exr", "--layers", "Q"}, "no layer 'Q'; there are: all, none, Z"},
+      {{"render", "a.scad", "-o", "x.exr", "--tonemap", "filmic"}, "EXR picture keeps the light"},
+      {{"render", "a.scad", "--tonemap", "pretty"}, "--tonemap"},
+      {{"render", "a.scad", "--format", "gif"}, "--format"},
+      {{"merge", "-o", "x.png"}, "PICTURES"},
+      {{"merge", "a.exr"}, "-o"},
       {{"trace", "a.scad"}, "--rays"},
       {{"trace", "-", "--rays", "-"}, "standard input"},
       {{"convert", "a.scad"}, "--output"},
@@ -83,10 +98,10 @@ TEST_F(Usage, ErrorsSayWhatIsWrongAndWriteNothing) {
 }
 
 TEST_F(Usage, PictureLargerThanTheMachineIsRefused) {
-  if (static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)) > 51e9) GTEST_SKIP();
+  if (static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)) > 257e9) GTEST_SKIP();
   const Outcome outcome = run({"render", "a.scad", "--size", "65535x65535"});
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_TRUE(contains(outcome.err, "51.5 GB")) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "257.7 GB")) << outcome.err;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 
 #include "support/scene_builder.h"
 #include "tenon/accel/accelerator.h"
+#include "tenon/film/film_picture.h"
 #include "tenon/lang/load.h"
 #include "tenon/math/color.h"
 #include "tenon/render/renderer.h"
@@ -161,7 +162,9 @@ Picture tenon_picture(const std::string& text) {
   options.width = width, options.height = height, options.depth = depth;
   const Result<Rendering> rendering = render(scene, **accelerator, options);
   Picture picture;
-  for (const float v : rendering->film.rgb()) picture.push_back(255 * srgb_from_linear(static_cast<double>(v)));
+  for (const float v : display_pixels(film_picture(rendering->film, {}, 32), {}, false).rgb) {
+    picture.push_back(255 * srgb_from_linear(static_cast<double>(v)));
+  }
   return picture;
 }
 

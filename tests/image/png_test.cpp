@@ -15,7 +15,7 @@ namespace {
 
 struct DecodedPng {
   int width = 0, height = 0, bits = 0;
-  std::vector<unsigned> rgb;
+  std::vector<unsigned> components;
   std::map<std::string, std::string> texts;
   bool is_srgb = false;
 };
@@ -42,8 +42,8 @@ DecodedPng decode(const std::string& bytes) {
   decoded.is_srgb = png_get_valid(png, info, PNG_INFO_sRGB) != 0;
   png_bytepp rows = png_get_rows(png, info);
   for (int y = 0; y < decoded.height; ++y) {
-    for (int i = 0; i < 3 * decoded.width; ++i) {
-      decoded.rgb.push_back(decoded.bits == 8 ? rows[y][i] : rows[y][2 * i] * 256U + rows[y][2 * i + 1]);
+    for (int i = 0; i < png_get_channels(png, info) * decoded.width; ++i) {
+      decoded.components.push_back(decoded.bits == 8 ? rows[y][i] : rows[y][2 * i] * 256U + rows[y][2 * i + 1]);
     }
   }
   png_textp texts = nullptr;
@@ -60,7 +60,7 @@ TEST(Png, RoundTripOfEveryByte) {
     const Rgb light = linear_from_srgb({v / 255.0, (255 - v) / 255.0, 0.5, 1});
     rgb.insert(rgb.end(), {static_cast<float>(light.r), static_cast<float>(light.g), static_cast<float>(light.b)});
   }
-  const auto bytes = encode_png({64, 4, rgb}, 8, {});
+  const auto bytes = encode_png({64, 4, rgb, {}}, 8, {});
   ASSERT_TRUE(bytes.ok());
   const DecodedPng png = decode(*bytes);
   ASSERT_EQ(png.width, 64);
@@ -68,33 +68,40 @@ TEST(Png, RoundTripOfEveryByte) {
   ASSERT_EQ(png.bits, 8);
   EXPECT_TRUE(png.is_srgb);
   for (unsigned v = 0; v < 256; ++v) {
-    EXPECT_EQ(png.rgb[3 * v], v);
-    EXPECT_EQ(png.rgb[3 * v + 1], 255 - v);
+    EXPECT_EQ(png.components[3 * v], v);
+    EXPECT_EQ(png.components[3 * v + 1], 255 - v);
   }
 }
 
 TEST(Png, SixteenBitsKeepFineSteps) {
   std::vector<float> rgb;
   for (int i = 0; i < 300; ++i) rgb.push_back(static_cast<float>(linear_from_srgb({(i * 200 + 7) / 65535.0, 0, 0}).r));
-  const auto bytes = encode_png({10, 10, rgb}, 16, {});
+  const auto bytes = encode_png({10, 10, rgb, {}}, 16, {});
   ASSERT_TRUE(bytes.ok());
   const DecodedPng png = decode(*bytes);
   ASSERT_EQ(png.bits, 16);
-  for (unsigned i = 0; i < 300; ++i) EXPECT_EQ(png.rgb[i], i * 200 + 7);
+  for (unsigned i = 0; i < 300; ++i) EXPECT_EQ(png.components[i], i * 200 + 7);
 }
 
 TEST(Png, LightOutsideTheRangeIsClamped) {
   const std::vector<float> rgb{-1, 2, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                                0,  1};
-  const DecodedPng png = decode(*encode_png({2, 1, rgb}, 8, {}));
-  EXPECT_EQ(png.rgb, (std::vector<unsigned>{0, 255, 0, 255, 0, 255}));
+  const DecodedPng png = decode(*encode_png({2, 1, rgb, {}}, 8, {}));
+  EXPECT_EQ(png.components, (std::vector<unsigned>{0, 255, 0, 255, 0, 255}));
 }
 
 TEST(Png, KeepsNotes) {
   const std::vector<PictureNote> notes{{"Software", "tenon 1"}, {"Title", "Würfel.scad"}};
-  const DecodedPng png = decode(*encode_png({1, 1, std::vector<float>{0, 0, 0}}, 8, notes));
+  const DecodedPng png = decode(*encode_png({1, 1, std::vector<float>{0, 0, 0}, {}}, 8, notes));
   EXPECT_EQ(png.texts.at("Software"), "tenon 1");
   EXPECT_EQ(png.texts.at("Title"), "Würfel.scad");
+}
+
+TEST(Png, AlphaIsKeptAsItIs) {
+  const std::vector<float> rgb{1, 0, 0, 0, 1, 0, 0, 0, 0}, alpha{1, 0.5F, -1};
+  const DecodedPng png = decode(*encode_png({3, 1, rgb, alpha}, 8, {}));
+  EXPECT_EQ(png.components, (std::vector<unsigned>{255, 0, 0, 255, 0, 255, 0, 128, 0, 0, 0, 0}));
+  EXPECT_EQ(decode(*encode_png({3, 1, rgb, alpha}, 16, {})).components[7], 32768U);
 }
 
 TEST(PictureFormat, FollowsTheSuffix) {

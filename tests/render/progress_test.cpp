@@ -16,6 +16,17 @@ TEST(ProgressText, SaysShareRateAndTimeLeft) {
   EXPECT_EQ(progress_text({"rendering", 100, 0, 0, 5}, false), "rendering   0 %");
 }
 
+TEST(ProgressText, TimeLeftFollowsFromThisRunAlone) {
+  // Half was there when the work began: 10 % in 5 s, 40 % are left.
+  EXPECT_EQ(progress_text({"rendering", 100, 60, 0, 5, 50}, false), "rendering  60 %, 0:20 left");
+}
+
+TEST(ProgressText, TimeLeftEndsWithTheTimeAllowed) {
+  EXPECT_EQ(progress_text({"rendering", 100, 10, 0, 5, 0, 30}, false), "rendering  10 %, 0:25 left");
+  EXPECT_EQ(progress_text({"rendering", 100, 80, 0, 20, 0, 30}, false), "rendering  80 %, 0:05 left");
+  EXPECT_EQ(progress_text({"rendering", 100, 0, 0, 31, 0, 30}, false), "rendering   0 %, 0:00 left");
+}
+
 TEST(ProgressText, WithoutATotalSaysTheTime) {
   EXPECT_EQ(progress_text({"reading x.scad", 0, 0, 0, 61.5}, true), "reading x.scad, 1:02");
 }

@@ -41,8 +41,8 @@ class AtomicFile {
 Status write_standard_output(std::string_view bytes);
 
 /// From now on an interrupt, a hang-up, a termination or a broken pipe removes the temporary files of this process and
-/// ends it with 128 + the signal's number (130 for Ctrl-C). A file that grows over the limit for its size is an error
-/// of write() instead of a signal.
+/// ends it with 128 + the signal's number (130 for Ctrl-C), unless an InterruptDeferral notes it. A file that grows
+/// over the limit for its size is an error of write() instead of a signal.
 void remove_temporary_files_on_signals();
 
 }  // namespace tenon

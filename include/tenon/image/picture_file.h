@@ -4,22 +4,17 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "tenon/base/error.h"
+#include "tenon/image/picture.h"
 
 namespace tenon {
 
-/// A picture in memory: linear light, three floats a pixel, rows from top to bottom.
-struct PictureView {
+/// A picture as a display gets it: light in [0, 1] where it is to be seen, rows from top to bottom.
+struct DisplayPicture {
   int width = 0, height = 0;
-  std::span<const float> rgb;
-};
-
-/// What is written beside the pixels: a PNG text chunk, an EXR attribute.
-struct PictureNote {
-  std::string key;   ///< 1 to 79 Latin letters, such as "Software"
-  std::string text;  ///< UTF-8
+  std::span<const float> rgb;    ///< linear light, three a pixel; not weighted with alpha
+  std::span<const float> alpha;  ///< one a pixel; empty: the picture is opaque
 };
 
 enum class PictureFormat { png, exr };
@@ -32,11 +27,16 @@ std::string_view picture_suffixes();
 /// The file of a picture: sRGB-encoded components, light over 1 clamped (ISO/IEC 15948).
 /// @param bits  of each component, 8 or 16
 /// @return the bytes, or a machine error
-Result<std::string> encode_png(const PictureView& picture, int bits, std::span<const PictureNote> notes);
+Result<std::string> encode_png(const DisplayPicture& picture, int bits, std::span<const PictureNote> notes);
 
-/// The file of a picture: linear light in the channels R, G and B, compressed without loss (OpenEXR).
-/// @param bits  of each component, 16 (half) or 32 (float)
+/// The file of a picture, compressed without loss (OpenEXR): every channel as it is, values beyond the range of a half
+/// clamped where the channel is one.
 /// @return the bytes, or a machine error
-Result<std::string> encode_exr(const PictureView& picture, int bits, std::span<const PictureNote> notes);
+Result<std::string> encode_exr(const Picture& picture);
+
+/// Reads an OpenEXR file of one part, scan lines or tiles, with all its channels and text attributes.
+/// @param name  stands for the file in messages
+/// @return the picture, or an input error: no such file, damaged, or more pixels promised than it can hold
+Result<Picture> decode_exr(const std::string& bytes, const std::string& name);
 
 }  // namespace tenon

@@ -16,7 +16,9 @@ namespace tenon {
 struct ProgressCounters {
   std::atomic<std::uint64_t> total{0};  ///< 0: not known
   std::atomic<std::uint64_t> done{0};
+  std::atomic<std::uint64_t> before{0};  ///< of what is done: what was done when the work began
   std::atomic<std::uint64_t> rays{0};
+  std::atomic<double> seconds_allowed{0};  ///< after which the work ends, done or not; 0: no such end
 };
 
 /// A moment of a piece of work.
@@ -24,6 +26,8 @@ struct ProgressFigures {
   std::string what;  ///< such as "rendering"
   std::uint64_t total = 0, done = 0, rays = 0;
   double seconds = 0;  ///< since it began
+  std::uint64_t before = 0;
+  double seconds_allowed = 0;
 };
 
 /// `rendering  42 % [########............] 1.3 Mrays/s, 0:12 left`; without what is not known. No end of line.

@@ -1,0 +1,80 @@
+#include "picture_output.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <sstream>
+
+#include "commands.h"
+#include "tenon/film/film_picture.h"
+
+namespace tenon {
+
+namespace {
+
+std::string gigabytes(double bytes) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f GB", bytes / 1e9);
+  return text;
+}
+
+}  // namespace
+
+Status check_memory(double bytes, const std::string& size) {
+  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (bytes <= memory) return success();
+  return usage_error("a picture of " + size + " takes " + gigabytes(bytes) + ", and this machine has " +
+                     gigabytes(memory) + "; make --size smaller, or take parts of it with --crop");
+}
+
+Result<Output> Output::open(const std::string& path) {
+  Output output;
+  if (path == "-") return output;
+  Result<AtomicFile> file = AtomicFile::create(path);
+  if (!file) return file.error();
+  output.file_.emplace(std::move(*file));
+  return output;
+}
+
+Status Output::finish(std::string_view bytes) {
+  if (!file_) return write_standard_output(bytes);
+  if (Status status = file_->write(bytes); !status) return status;
+  return file_->commit();
+}
+
+Result<std::string> encode(const Picture& picture, const PicturePlan& plan, bool transparent) {
+  if (plan.format == PictureFormat::exr) return encode_exr(picture);
+  const DisplayPixels shown = display_pixels(picture, plan.tone, transparent);
+  const DisplayPicture display{picture.window.width(), picture.window.height(), shown.rgb, shown.alpha};
+  return encode_png(display, plan.bits, picture.notes);
+}
+
+Result<std::string> encode(const FilmPart& part, const PicturePlan& plan) {
+  if (plan.format == PictureFormat::exr) return encode(part_picture(part), plan, part.transparent);
+  Picture picture = film_picture(part.film, {}, 32);
+  picture.notes = part.notes;
+  return encode(picture, plan, part.transparent);
+}
+
+Result<Picture> read_picture(const std::string& path) {
+  std::string bytes;
+  if (path == "-") {
+    bytes.assign(std::istreambuf_iterator<char>(std::cin), {});
+  } else {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    if (file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
+    if (!file) {
+      return Error{ErrorKind::input, "cannot read '" + path + "': " + std::strerror(errno != 0 ? errno : EINVAL), {}};
+    }
+    bytes = std::move(text).str();
+  }
+  return decode_exr(bytes, path == "-" ? "standard input" : path);
+}
+
+}  // namespace tenon

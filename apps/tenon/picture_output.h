@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "picture_arguments.h"
+#include "tenon/base/atomic_file.h"
+#include "tenon/base/error.h"
+#include "tenon/film/film_part.h"
+
+namespace tenon {
+
+/// A file to be written when all is done, or standard output ("-").
+class Output {
+ public:
+  static Result<Output> open(const std::string& path);
+  Status finish(std::string_view bytes);
+
+ private:
+  std::optional<AtomicFile> file_;
+};
+
+/// The bytes of a picture's file.
+/// @param transparent  its background is left out
+Result<std::string> encode(const Picture& picture, const PicturePlan& plan, bool transparent);
+
+/// The bytes of the file of a picture, or of a part of it.
+Result<std::string> encode(const FilmPart& part, const PicturePlan& plan);
+
+/// A usage error when a picture takes more memory than the machine has.
+/// @param size  of the picture, for the message
+Status check_memory(double bytes, const std::string& size);
+
+/// Reads an EXR picture; "-" is standard input.
+Result<Picture> read_picture(const std::string& path);
+
+}  // namespace tenon

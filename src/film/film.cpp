@@ -1,0 +1,151 @@
+#include "tenon/film/film.h"
+
+#include <cassert>
+#include <string_view>
+
+namespace tenon {
+
+namespace {
+
+constexpr std::uint32_t no_sample = std::numeric_limits<std::uint32_t>::max();
+
+template <class T>
+void resize(FilmPlanes::Three<T>& planes, std::size_t pixels) {
+  for (auto& plane : planes) plane.resize(pixels);
+}
+
+FilmPlanes planes_for(std::size_t pixels, const Layers& layers) {
+  FilmPlanes planes;
+  planes.samples.resize(pixels);
+  resize(planes.light, pixels);
+  planes.alpha.resize(pixels);
+  if (layers.has(Layer::variance)) resize(planes.squares, pixels);
+  if (layers.has(Layer::normal)) resize(planes.normal, pixels);
+  if (layers.has(Layer::albedo)) resize(planes.albedo, pixels);
+  if (layers.has(Layer::crossings)) planes.crossings.resize(pixels);
+  if (layers.has(Layer::path_length)) planes.path_length.resize(pixels);
+  if (keeps_first(layers)) planes.first.assign(pixels, no_sample);
+  if (layers.has(Layer::depth)) planes.depth.assign(pixels, std::numeric_limits<float>::infinity());
+  if (layers.has(Layer::point)) resize(planes.point, pixels);
+  if (layers.has(Layer::ids)) resize(planes.ids, pixels);
+  return planes;
+}
+
+template <class Sum>
+void add_three(FilmPlanes::Three<Sum>& planes, std::size_t i, double a, double b, double c) {
+  if (planes[0].empty()) return;
+  planes[0][i].add(a);
+  planes[1][i].add(b);
+  planes[2][i].add(c);
+}
+
+template <class Sum>
+Rgb mean(const FilmPlanes::Three<Sum>& planes, std::size_t i, std::uint32_t samples) {
+  if (samples == 0) return {};
+  return {planes[0][i].value() / samples, planes[1][i].value() / samples, planes[2][i].value() / samples};
+}
+
+// Of the mean of n numbers, from their sum and that of their squares.
+double squared_error(const WideSum& sum, const SquareSum& squares, double n) {
+  const double value = sum.value();
+  return std::max(0.0, squares.value() - value * value / n) / (n * (n - 1));
+}
+
+}  // namespace
+
+Film::Film(int width, int height, const PixelWindow& window, const Layers& layers)
+    : Film(width, height, window, layers, planes_for(window.pixels(), layers)) {}
+
+Film::Film(int width, int height, const PixelWindow& window, const Layers& layers, FilmPlanes planes)
+    : width_(width), height_(height), window_(window), layers_(layers), planes_(std::move(planes)) {}
+
+void Film::add(int x, int y, const FilmSample& sample) {
+  const std::size_t i = window_.index(x, y);
+  ++planes_.samples[i];
+  // Single precision has more digits than a pixel needs, and sums of it shrink well when they are stored.
+  const auto r = static_cast<double>(static_cast<float>(sample.light.r));
+  const auto g = static_cast<double>(static_cast<float>(sample.light.g));
+  const auto b = static_cast<double>(static_cast<float>(sample.light.b));
+  add_three(planes_.light, i, r, g, b);
+  add_three(planes_.squares, i, r * r, g * g, b * b);
+  planes_.alpha[i].add(sample.alpha);
+  add_three(planes_.normal, i, sample.normal.x, sample.normal.y, sample.normal.z);
+  add_three(planes_.albedo, i, sample.albedo.r, sample.albedo.g, sample.albedo.b);
+  if (!planes_.crossings.empty()) planes_.crossings[i] += sample.crossings;
+  if (!planes_.path_length.empty()) {
+    planes_.path_length[i].add(static_cast<double>(static_cast<float>(sample.path_length)));
+  }
+  if (planes_.first.empty() || planes_.first[i] < sample.index) return;
+  planes_.first[i] = sample.index;
+  if (!planes_.depth.empty()) planes_.depth[i] = static_cast<float>(sample.depth);
+  const std::array<std::uint32_t, 3> ids{sample.ids.primitive, sample.ids.material, sample.ids.solid};
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (!planes_.point[c].empty()) planes_.point[c][i] = static_cast<float>(sample.point[static_cast<int>(c)]);
+    if (!planes_.ids[c].empty()) planes_.ids[c][i] = ids[c];
+  }
+}
+
+void Film::add(const Film& part) {
+  assert(part.layers_ == layers_ && part.width_ == width_ && part.height_ == height_);
+  const PixelWindow both = overlap(window_, part.window_);
+  const auto for_each_row = [&](auto&& body) {
+    const auto length = static_cast<std::size_t>(both.width());
+    for (int y = both.y0; y < both.y1; ++y) body(window_.index(both.x0, y), part.window_.index(both.x0, y), length);
+  };
+  for_each_sum([&](std::string_view, auto plane_of) {
+    auto& mine = plane_of(planes_);
+    const auto& theirs = plane_of(part.planes_);
+    if (mine.empty()) return;
+    for_each_row([&](std::size_t to, std::size_t from, std::size_t length) {
+      for (std::size_t i = 0; i < length; ++i) mine[to + i] += theirs[from + i];
+    });
+  });
+  if (planes_.first.empty()) return;
+  for_each_first([&](std::string_view, auto plane_of) {
+    auto& mine = plane_of(planes_);
+    const auto& theirs = plane_of(part.planes_);
+    if (mine.empty()) return;
+    for_each_row([&](std::size_t to, std::size_t from, std::size_t length) {
+      for (std::size_t i = 0; i < length; ++i) {
+        if (part.planes_.first[from + i] < planes_.first[to + i]) mine[to + i] = theirs[from + i];
+      }
+    });
+  });
+}
+
+Film Film::cropped(const PixelWindow& window) const {
+  Film film(width_, height_, window, layers_);
+  film.add(*this);
+  return film;
+}
+
+Rgb Film::light(int x, int y) const {
+  return mean(planes_.light, window_.index(x, y), samples(x, y));
+}
+
+double Film::alpha(int x, int y) const {
+  const std::uint32_t n = samples(x, y);
+  return n == 0 ? 0 : planes_.alpha[window_.index(x, y)].value() / n;
+}
+
+Rgb Film::variance(int x, int y) const {
+  const std::uint32_t n = samples(x, y);
+  if (n < 2) return {};
+  const std::size_t i = window_.index(x, y);
+  const auto of = [&](std::size_t c) { return squared_error(planes_.light[c][i], planes_.squares[c][i], n); };
+  return {of(0), of(1), of(2)};
+}
+
+double Film::bytes(const PixelWindow& window, const Layers& layers) {
+  const FilmPlanes one = planes_for(1, layers);
+  std::size_t bytes = 0;
+  const auto count = [&](std::string_view, auto plane_of) {
+    const auto& plane = plane_of(one);
+    bytes += plane.size() * sizeof(plane[0]);
+  };
+  for_each_sum(count);
+  for_each_first(count);
+  return static_cast<double>(bytes) * static_cast<double>(window.width()) * window.height();
+}
+
+}  // namespace tenon

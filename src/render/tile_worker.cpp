@@ -1,0 +1,88 @@
+#include "render/tile_worker.h"
+
+#include "render/path.h"
+#include "render/pixel_samples.h"
+#include "render/whitted.h"
+
+namespace tenon {
+
+namespace {
+
+std::unique_ptr<Integrator> make_integrator(const LitScene& scene, const Accelerator& accelerator,
+                                            const RenderOptions& options) {
+  if (options.integrator == IntegratorKind::path) {
+    return std::make_unique<PathIntegrator>(scene, accelerator, Sampler(options.seed), options.depth);
+  }
+  return std::make_unique<WhittedIntegrator>(scene, accelerator, RecursionLimits{options.depth, options.threshold});
+}
+
+}  // namespace
+
+TileWorker::TileWorker(const LitScene& scene, const SurfaceFeatures* features, const Accelerator& accelerator,
+                       const CameraRays& camera, const RenderOptions& options)
+    : features_(features),
+      accelerator_(accelerator),
+      camera_(camera),
+      samples_(options.samples),
+      sampler_(options.seed),
+      is_random_(options.integrator == IntegratorKind::path),
+      transparent_(options.transparent),
+      wants_spans_(options.layers.has(Layer::crossings) || options.layers.has(Layer::path_length)),
+      context_(accelerator.make_context()),
+      span_context_(wants_spans_ ? accelerator.make_context() : nullptr),
+      integrator_(make_integrator(scene, accelerator, options)) {}
+
+void TileWorker::take(const PixelWindow& tile, std::uint32_t first, std::uint32_t end, Film& film) {
+  for (std::uint32_t index = first; index < end; ++index) {
+    aim(tile, index);
+    accelerator_.first_hits(queries_, hits_, *context_);
+    integrator_->radiance(queries_, hits_, ids_, light_, *context_);
+    for (std::size_t i = 0; i < queries_.size(); ++i) add(i, film);
+  }
+}
+
+void TileWorker::aim(const PixelWindow& tile, std::uint32_t index) {
+  queries_.resize(tile.pixels());
+  hits_.resize(tile.pixels());
+  ids_.resize(tile.pixels());
+  light_.resize(tile.pixels());
+  const PixelSample shared = pixel_sample(index, samples_);
+  std::size_t i = 0;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      const SampleId id = ids_[i] = {x, y, index};
+      RayQuery& query = queries_[i++];
+      const Sample2 place = is_random_ ? sampler_(id, sample_pair::pixel) : Sample2{shared.x, shared.y};
+      query.ray = camera_.ray(x + place.u, y + place.v);
+      query.pixel_x = x;
+      query.pixel_y = y;
+    }
+  }
+}
+
+void TileWorker::add(std::size_t i, Film& film) {
+  const RayQuery& query = queries_[i];
+  FilmSample sample;
+  sample.index = ids_[i].index;
+  sample.light = light_[i];
+  if (transparent_ && !hits_[i].found()) {
+    sample.light = {};
+    sample.alpha = 0;
+  }
+  if (features_ != nullptr) features_->describe(hits_[i], sample);
+  if (wants_spans_) look_through(query, sample);
+  film.add(query.pixel_x, query.pixel_y, sample);
+}
+
+// A ray that starts inside has no boundary at 0, and an end at infinity is none.
+void TileWorker::look_through(const RayQuery& query, FilmSample& sample) {
+  spans_.clear();
+  accelerator_.all_spans(query, spans_, *span_context_);
+  for (const SolidSpan& span : spans_) {
+    sample.crossings += span.t_in > 0 ? 1 : 0;
+    sample.crossings += span.t_out < std::numeric_limits<double>::infinity() ? 1 : 0;
+    sample.path_length += span.t_out - span.t_in;
+  }
+}
+
+}  // namespace tenon

@@ -1,0 +1,59 @@
+#include "tenon/film/exact_sum.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "support/random.h"
+
+namespace tenon {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+TEST(ExactSum, SameInAnyOrderAndInAnyParts) {
+  const std::uint64_t seed = 71;
+  SCOPED_TRACE(seed);
+  Random random(seed);
+  for (int round = 0; round < 100; ++round) {
+    std::vector<double> numbers;
+    for (int i = 0; i < 200; ++i) numbers.push_back(random.sign() * random.magnitude(-15, 14));
+    WideSum expected;
+    for (double n : numbers) expected.add(n);
+    for (std::size_t i = numbers.size(); i-- > 1;) std::swap(numbers[i], numbers[random.bits() % (i + 1)]);
+    std::vector<WideSum> parts(static_cast<std::size_t>(1 + random.below(9)));
+    for (double n : numbers) parts[random.bits() % parts.size()].add(n);
+    WideSum sum;
+    for (const WideSum& part : parts) sum += part;
+    EXPECT_EQ(sum, expected);
+  }
+}
+
+TEST(ExactSum, OfFloatsThatAreLightIsExact) {
+  // Whatever a float from 2^-40 on is, it is a whole number of steps.
+  WideSum sum;
+  for (const float f : {0x1.fffffep-17F, 0x1.000002p-40F, 3.0F, -0.1F}) sum.add(static_cast<double>(f));
+  EXPECT_EQ(sum.value(), 0x1.fffffep-17 + 0x1.000002p-40 + 3 + static_cast<double>(-0.1F));
+}
+
+TEST(ExactSum, HoldsAsManyOfTheLargestAsAPixelHasSamples) {
+  ShareSum shares;
+  WideSum wide;
+  for (std::uint32_t i = 0; i < most_samples; ++i) shares.add(infinity), wide.add(-infinity);
+  EXPECT_EQ(shares.value(), most_samples * ShareSum::limit());
+  EXPECT_EQ(wide.value(), -(most_samples * WideSum::limit()));
+  EXPECT_EQ(ShareSum::limit(), 4);
+}
+
+TEST(ExactSum, NotANumberCountsAsNothing) {
+  WideSum sum;
+  sum.add(std::numeric_limits<double>::quiet_NaN());
+  sum.add(1.5);
+  EXPECT_EQ(sum.value(), 1.5);
+}
+
+}  // namespace
+}  // namespace tenon
