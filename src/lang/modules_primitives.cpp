@@ -1,13 +1,11 @@
 #include <cmath>
-#include <filesystem>
 
 #include "lang/facets.h"
 #include "lang/failure.h"
 #include "lang/format.h"
 #include "lang/polyhedron.h"
 #include "lang/primitive_arguments.h"
-#include "lang/source_files.h"
-#include "mesh/load_mesh.h"
+#include "mesh/build_mesh.h"
 
 namespace tenon::lang {
 
@@ -15,15 +13,6 @@ namespace {
 
 Solid make_polyhedron(ModuleCall& call, std::vector<Plane> planes) {
   return make_primitive(call, "convex_polyhedron", {FieldValue(std::move(planes))});
-}
-
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + '"';
 }
 
 std::optional<Solid> cube(ModuleCall& call) {
@@ -146,48 +135,6 @@ std::optional<Solid> polyhedron(ModuleCall& call) {
   return make_polyhedron(call, std::get<0>(std::move(result)));
 }
 
-MeshStructure mesh_structure(const ModuleArguments& arguments, std::size_t index) {
-  if (!arguments.given(index)) return MeshStructure::bvh;
-  const String* name = arguments[index].string();
-  if (name && name->text() == "bvh") return MeshStructure::bvh;
-  if (name && name->text() == "kd") return MeshStructure::kd;
-  fail(arguments.at(index), "'local' must be \"bvh\" or \"kd\", the structure over the triangles of the mesh");
-}
-
-// Of the file's mesh, one primitive, however often it is imported: it is stored once.
-std::optional<Solid> import(ModuleCall& call) {
-  constexpr std::string_view names[] = {"file", "convexity", "layer", "origin", "scale", "hull", "local"};
-  const ModuleArguments arguments(call, names, UnknownArgument::warn);
-  Environment& environment = call.evaluator.environment();
-  const String* file = arguments[0].string();
-  if (!file) fail(arguments.at(0), "import() needs 'file', the name of a mesh file in quotes");
-  const bool* hull = arguments[5].boolean();
-  if (arguments.given(5) && !hull) fail(arguments.at(5), "'hull' must be true or false");
-  const std::string found = SourceFiles::find(file->text(), call.at());
-  const std::string path = std::filesystem::absolute(found).lexically_normal().string();
-  const bool as_hull = hull && *hull;
-  const MeshStructure local = mesh_structure(arguments, 6);
-  const std::string source = "import(file = " + quoted(path) + (as_hull ? ", hull = true" : "") +
-                             (local == MeshStructure::kd ? ", local = \"kd\")" : ")");
-
-  PrimitiveId& known = call.evaluator.imported(source);
-  if (known) return call.evaluator.builder().leaf(known);
-  Result<BuiltMesh> built = load_mesh(found, as_hull);
-  if (!built) throw Failure{built.error()};
-  for (const std::string& note : built->notes) environment.warn(arguments.at(0), found + ": " + note);
-  built->mesh.source = source;
-  built->mesh.local = local;
-  const Result<PrimitiveId> made = call.evaluator.builder().model().graph.primitives.add(
-      *PrimitiveStore::find_kind("mesh"),
-      std::vector<FieldValue>{std::make_shared<const TriangleMesh>(std::move(built->mesh)), as_hull});
-  if (!made) {
-    environment.warn(arguments.at(0), found + ": " + made.error().message);
-    return Solid::nothing();
-  }
-  known = *made;
-  return call.evaluator.builder().leaf(known);
-}
-
 std::vector<Plane> require_planes(const ModuleArguments& arguments, std::size_t index, std::string_view name) {
   const std::string message =
       "'" + std::string(name) + "' must be a list of planes [nx, ny, nz, d], where n.p <= d inside";
@@ -263,7 +210,6 @@ void add_primitive_modules(BuiltinModuleTable& table, SymbolTable& symbols) {
   table.emplace(symbols.intern("sphere"), sphere);
   table.emplace(symbols.intern("cylinder"), cylinder);
   table.emplace(symbols.intern("polyhedron"), polyhedron);
-  for (const char* name : {"import", "import_stl", "import_off"}) table.emplace(symbols.intern(name), import);
   for (const PrimitiveKind& kind : PrimitiveStore::kinds()) {
     table.emplace(symbols.intern(kind.scad_name), primitive_of_kind);
   }

@@ -14,7 +14,7 @@ namespace {
 using Reader = Result<PolygonSoup> (*)(const MeshFile&);
 
 constexpr std::pair<const char*, Reader> readers[] = {
-    {".stl", read_stl}, {".obj", read_obj}, {".off", read_off}, {".ply", read_ply}};
+    {".stl", read_stl}, {".obj", read_obj}, {".off", read_off}, {".ply", read_ply}, {".3mf", read_3mf}};
 
 // Indices of corners are 32 bits wide, and a corner takes at least two bytes.
 constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 32;
@@ -51,8 +51,15 @@ Reader find_reader(const std::string& path) {
 }
 
 Error not_readable(const std::string& path) {
-  return at_file(path, "meshes are read from files that end in .stl, .obj, .off or .ply, not '" + ending_of(path) +
-                           "'; export it as one of these");
+  return at_file(path, "meshes are read from files that end in .stl, .obj, .off, .ply or .3mf, not '" +
+                           ending_of(path) + "'; export it as one of these");
+}
+
+Result<BuiltMesh> build_from(const MeshFile& file, const Result<PolygonSoup>& soup, const char* what, bool hull) {
+  if (!soup) return soup.error();
+  Result<BuiltMesh> built = build_mesh(*soup, what, hull);
+  if (!built) return at_file(file.path, built.error().message);
+  return built;
 }
 
 }  // namespace
@@ -60,11 +67,7 @@ Error not_readable(const std::string& path) {
 Result<BuiltMesh> parse_mesh(const MeshFile& file, bool hull) {
   const Reader read = find_reader(file.path);
   if (read == nullptr) return not_readable(file.path);
-  const Result<PolygonSoup> soup = read(file);
-  if (!soup) return soup.error();
-  Result<BuiltMesh> built = build_mesh(*soup, "the mesh", hull);
-  if (!built) return at_file(file.path, built.error().message);
-  return built;
+  return build_from(file, read(file), "the mesh", hull);
 }
 
 Result<BuiltMesh> load_mesh(const std::string& path, bool hull) {
@@ -73,6 +76,12 @@ Result<BuiltMesh> load_mesh(const std::string& path, bool hull) {
   const Result<MeshFile> file = read_bytes(path);
   if (!file) return file.error();
   return parse_mesh(*file, hull);
+}
+
+Result<BuiltMesh> load_height_map(const std::string& path, const HeightMapOptions& options) {
+  const Result<MeshFile> file = read_bytes(path);
+  if (!file) return file.error();
+  return build_from(*file, read_height_map(*file, options), "the surface", false);
 }
 
 }  // namespace tenon

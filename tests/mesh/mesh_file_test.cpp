@@ -157,7 +157,7 @@ TEST_F(MeshFileTest, WhatIsWrongIsSaidWithItsPlace) {
   expect_error("a.ply", ply, "says it has 4 face elements, but number 3 is cut off");
   expect_error("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty vec3 x\n",
                "a.ply:4:10: error: 'vec3' is no type");
-  expect_error("a.dxf", "", "files that end in .stl, .obj, .off or .ply, not '.dxf'");
+  expect_error("a.dxf", "", "files that end in .stl, .obj, .off, .ply or .3mf, not '.dxf'");
 }
 
 TEST_F(MeshFileTest, WhatEnclosesNoSolidIsSaidWithCountAndFirstPlace) {

@@ -1,0 +1,1 @@
+surface(file="/tmp/b.dat");

@@ -1,0 +1,99 @@
+#include <filesystem>
+
+#include "lang/failure.h"
+#include "lang/module_arguments.h"
+#include "lang/source_files.h"
+#include "mesh/load_mesh.h"
+
+namespace tenon::lang {
+
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+MeshStructure mesh_structure(const ModuleArguments& arguments, std::size_t index) {
+  if (!arguments.given(index)) return MeshStructure::bvh;
+  const String* name = arguments[index].string();
+  if (name && name->text() == "bvh") return MeshStructure::bvh;
+  if (name && name->text() == "kd") return MeshStructure::kd;
+  fail(arguments.at(index), "'local' must be \"bvh\" or \"kd\", the structure over the triangles of the mesh");
+}
+
+// The name of a file, found beside the one that says it; and absolute, as a statement that makes the solid again needs
+// it.
+struct NamedFile {
+  std::string found;
+  std::string absolute;
+};
+NamedFile require_file(ModuleCall& call, const ModuleArguments& arguments, const char* kind) {
+  const String* file = arguments[0].string();
+  if (!file) {
+    fail(arguments.at(0), call.evaluator.environment().text(call.instantiation.name) + "() needs 'file', the name of " +
+                              kind + " in quotes");
+  }
+  const std::string found = SourceFiles::find(file->text(), call.at());
+  return {found, std::filesystem::absolute(found).lexically_normal().string()};
+}
+
+// Of a file one primitive, however often it is used: it is stored once.
+template <class Load>
+Solid mesh_of_file(ModuleCall& call, Place at, const NamedFile& file, const std::string& source, MeshStructure local,
+                   bool hull, const Load& load) {
+  Environment& environment = call.evaluator.environment();
+  PrimitiveId& known = call.evaluator.imported(source);
+  if (known) return call.evaluator.builder().leaf(known);
+  Result<BuiltMesh> built = load();
+  if (!built) throw Failure{built.error()};
+  for (const std::string& note : built->notes) environment.warn(at, file.found + ": " + note);
+  built->mesh.source = source;
+  built->mesh.local = local;
+  const Result<PrimitiveId> made = call.evaluator.builder().model().graph.primitives.add(
+      *PrimitiveStore::find_kind("mesh"),
+      std::vector<FieldValue>{std::make_shared<const TriangleMesh>(std::move(built->mesh)), hull});
+  if (!made) {
+    environment.warn(at, file.found + ": " + made.error().message);
+    return Solid::nothing();
+  }
+  known = *made;
+  return call.evaluator.builder().leaf(known);
+}
+
+std::optional<Solid> import(ModuleCall& call) {
+  constexpr std::string_view names[] = {"file", "convexity", "layer", "origin", "scale", "hull", "local"};
+  const ModuleArguments arguments(call, names, UnknownArgument::warn);
+  const NamedFile file = require_file(call, arguments, "a mesh file");
+  const bool* given_hull = arguments[5].boolean();
+  if (arguments.given(5) && !given_hull) fail(arguments.at(5), "'hull' must be true or false");
+  const bool hull = given_hull && *given_hull;
+  const MeshStructure local = mesh_structure(arguments, 6);
+  const std::string source = "import(file = " + quoted(file.absolute) + (hull ? ", hull = true" : "") +
+                             (local == MeshStructure::kd ? ", local = \"kd\")" : ")");
+  return mesh_of_file(call, arguments.at(0), file, source, local, hull, [&] { return load_mesh(file.found, hull); });
+}
+
+std::optional<Solid> surface(ModuleCall& call) {
+  constexpr std::string_view names[] = {"file", "center", "convexity", "invert"};
+  const ModuleArguments arguments(call, names, UnknownArgument::warn);
+  const NamedFile file = require_file(call, arguments, "a height map");
+  const HeightMapOptions options{arguments[1].truth(), arguments[3].truth()};
+  const std::string source = "surface(file = " + quoted(file.absolute) + (options.center ? ", center = true" : "") +
+                             (options.invert ? ", invert = true)" : ")");
+  return mesh_of_file(call, arguments.at(0), file, source, MeshStructure::bvh, false,
+                      [&] { return load_height_map(file.found, options); });
+}
+
+}  // namespace
+
+void add_file_modules(BuiltinModuleTable& table, SymbolTable& symbols) {
+  for (const char* name : {"import", "import_stl", "import_off"}) table.emplace(symbols.intern(name), import);
+  table.emplace(symbols.intern("surface"), surface);
+}
+
+}  // namespace tenon::lang
