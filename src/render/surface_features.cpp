@@ -6,7 +6,7 @@ namespace tenon {
 
 SurfaceFeatures::SurfaceFeatures(const Scene& scene, const LitScene& lit)
     : lit_(lit),
-      solid_of_leaf_(solid_numbers(*scene.tree)),
+      solid_of_leaf_(solid_numbers(*scene.tree, static_cast<bool>(scene.first_section_plane))),
       default_material_(static_cast<std::uint32_t>(scene.materials.size())) {}
 
 void SurfaceFeatures::describe(const Hit& hit, FilmSample& sample) const {
