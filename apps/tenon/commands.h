@@ -12,6 +12,7 @@ using CommandBody = std::function<Status()>;
 
 CommandBody add_render_command(CLI::App& command);
 CommandBody add_merge_command(CLI::App& command);
+CommandBody add_denoise_command(CLI::App& command);
 CommandBody add_trace_command(CLI::App& command);
 CommandBody add_info_command(CLI::App& command);
 CommandBody add_compare_command(CLI::App& command);

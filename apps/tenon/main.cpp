@@ -20,9 +20,10 @@ struct Command {
   CommandBody (*add)(CLI::App& command);
 };
 
-constexpr std::array<Command, 6> commands{{
+constexpr std::array<Command, 7> commands{{
     {"render", "Take a picture of a scene", add_render_command},
     {"merge", "Add up parts of one picture, made on any machines in any order", add_merge_command},
+    {"denoise", "Take the noise out of an EXR picture", add_denoise_command},
     {"trace", "Follow rays through a scene; one JSON object a line", add_trace_command},
     {"compare", "Trace the same rays through every structure, and check the answers", add_compare_command},
     {"info", "Say what a scene holds", add_info_command},

@@ -7,6 +7,7 @@
 #include "picture_arguments.h"
 #include "picture_output.h"
 #include "scene_arguments.h"
+#include "tenon/base/parallel_for.h"
 #include "tenon/film/film_part.h"
 
 namespace tenon {
@@ -42,7 +43,7 @@ Status MergeCommand::run() const {
   Result<FilmPart> merged = merge(parts, paths);
   if (!merged) return merged.error();
   if (picture.bits != 0 && file->format == PictureFormat::exr) merged->bits = picture.bits;
-  const Result<std::string> bytes = encode(*merged, *file);
+  const Result<std::string> bytes = encode(*merged, *file, available_threads(), console);
   if (!bytes) return bytes.error();
   if (Status status = output->finish(*bytes); !status) return status;
   console.progress().end();
@@ -63,6 +64,7 @@ CommandBody add_merge_command(CLI::App& command) {
       ->type_name("")
       ->required();
   arguments->picture.add_to(command);
+  arguments->picture.add_denoise_to(command);
   command.add_flag("-q,--quiet", arguments->quiet, "Show no progress");
   command.footer(
       "Adds up parts of one picture, in any order, to the same bytes as when it is taken in one go:\n"

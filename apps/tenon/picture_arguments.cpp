@@ -78,6 +78,12 @@ void PictureArguments::add_layers_to(CLI::App& command) {
   command.add_option("--layers", layers, layers_help())->type_name("NAME,...");
 }
 
+void PictureArguments::add_denoise_to(CLI::App& command) {
+  command.add_flag("--denoise", denoise,
+                   "Take the noise out, guided by albedo, normals, depth, ids and variance (a-trous wavelets); needs 2 "
+                   "samples a pixel at least");
+}
+
 Result<PicturePlan> plan_picture(const PictureArguments& arguments, const std::string& default_output) {
   PicturePlan plan;
   plan.output = arguments.output.empty() ? default_output : arguments.output;
@@ -94,6 +100,7 @@ Result<PicturePlan> plan_picture(const PictureArguments& arguments, const std::s
   }
   const auto curve = std::find(tone_curve_names.begin(), tone_curve_names.end(), arguments.tone_curve);
   plan.tone = {static_cast<ToneCurve>(curve - tone_curve_names.begin()), arguments.exposure};
+  plan.denoise = arguments.denoise;
   if (Status status = check_format(arguments, plan); !status) return status.error();
   return plan;
 }

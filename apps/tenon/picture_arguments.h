@@ -18,10 +18,13 @@ struct PictureArguments {
   std::string tone_curve = "none";
   double exposure = 0;
   int bits = 0;
+  bool denoise = false;
 
   void add_to(CLI::App& command);
   /// --layers, for the commands that may choose them.
   void add_layers_to(CLI::App& command);
+  /// --denoise, for the commands that may do without.
+  void add_denoise_to(CLI::App& command);
 };
 
 /// The same, understood.
@@ -31,6 +34,7 @@ struct PicturePlan {
   int bits = 8;
   Layers layers;  ///< of an EXR
   ToneMapping tone;
+  bool denoise = false;
 };
 
 /// @param default_output  names the picture when nothing else does; empty where there is no name to take

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "commands.h"
+#include "tenon/film/denoise.h"
 #include "tenon/film/film_picture.h"
 
 namespace tenon {
@@ -54,11 +55,30 @@ Result<std::string> encode(const Picture& picture, const PicturePlan& plan, bool
   return encode_png(display, plan.bits, picture.notes);
 }
 
-Result<std::string> encode(const FilmPart& part, const PicturePlan& plan) {
-  if (plan.format == PictureFormat::exr) return encode(part_picture(part), plan, part.transparent);
-  Picture picture = film_picture(part.film, {}, 32);
-  picture.notes = part.notes;
+Result<std::string> encode(const FilmPart& part, const PicturePlan& plan, int threads, Console& console) {
+  const bool is_exr = plan.format == PictureFormat::exr;
+  Picture picture = is_exr ? part_picture(part) : film_picture(part.film, {}, 32);
+  picture.notes = is_exr ? picture.notes : part.notes;
+  if (plan.denoise) {
+    if (!part.film.layers().contains(denoise_layers())) {
+      return Error{
+          ErrorKind::input, "the pictures lack the layers that denoising goes by; render them with --denoise", {}};
+    }
+    Picture guided = film_picture(part.film, denoise_layers(), 32);
+    if (Status status = denoise(guided, plan.output, threads, console); !status) return status.error();
+    // R, G and B come first.
+    for (std::size_t c = 0; c < 3; ++c) picture.channels[c].values = std::move(guided.channels[c].values);
+  }
   return encode(picture, plan, part.transparent);
+}
+
+Status denoise(Picture& picture, const std::string& name, int threads, Console& console) {
+  console.progress().begin("denoising");
+  ProgressCounters& counters = console.progress().counters();
+  counters.total = static_cast<std::uint64_t>(denoise_levels) * static_cast<std::uint64_t>(picture.window.height());
+  const Status status = denoise(picture, name, {threads, [&] { ++counters.done; }});
+  console.progress().end();
+  return status;
 }
 
 Result<Picture> read_picture(const std::string& path) {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "picture_arguments.h"
+#include "scene_arguments.h"
 #include "tenon/base/atomic_file.h"
 #include "tenon/base/error.h"
 #include "tenon/film/film_part.h"
@@ -25,8 +26,12 @@ class Output {
 /// @param transparent  its background is left out
 Result<std::string> encode(const Picture& picture, const PicturePlan& plan, bool transparent);
 
-/// The bytes of the file of a picture, or of a part of it.
-Result<std::string> encode(const FilmPart& part, const PicturePlan& plan);
+/// The bytes of the file of a picture, or of a part of it, denoised where the plan says so.
+Result<std::string> encode(const FilmPart& part, const PicturePlan& plan, int threads, Console& console);
+
+/// Takes the noise out of a picture, and shows how far it is.
+/// @param name  stands for the picture in messages
+Status denoise(Picture& picture, const std::string& name, int threads, Console& console);
 
 /// A usage error when a picture takes more memory than the machine has.
 /// @param size  of the picture, for the message

@@ -11,6 +11,7 @@
 #include "scene_arguments.h"
 #include "statistics_json.h"
 #include "tenon/base/interrupt.h"
+#include "tenon/film/denoise.h"
 #include "tenon/render/renderer.h"
 #include "work_arguments.h"
 
@@ -63,7 +64,7 @@ Result<RenderOptions> RenderCommand::plan_options(const RenderPlan& plan, const 
   options.threshold = invisible_share(16);
   options.threads = tracing.thread_count();
   options.transparent = render.transparent;
-  options.layers = file.layers;
+  options.layers = file.denoise ? file.layers | denoise_layers() : file.layers;
   if (Status status = plan_work(work, options); !status) return status.error();
   if (Status status = check_memory(Film::bytes(film_window(options), film_layers(options)), render.size); !status) {
     return status.error();
@@ -157,7 +158,7 @@ Status RenderCommand::run() const {
   part.film = std::move(rendering->film);
   part.done = std::move(rendering->done);
   if (options->crop) part = cropped(part, *options->crop);
-  const Result<std::string> bytes = encode(part, *file);
+  const Result<std::string> bytes = encode(part, *file, options->threads, console);
   if (!bytes) return bytes.error();
   if (Status status = picture_file->finish(*bytes); !status) return status;
   if (checkpoint && finished) checkpoint->remove();
@@ -177,6 +178,7 @@ CommandBody add_render_command(CLI::App& command) {
   arguments->scene.add_to(command);
   arguments->picture.add_to(command);
   arguments->picture.add_layers_to(command);
+  arguments->picture.add_denoise_to(command);
   arguments->render.add_to(command);
   arguments->work.add_to(command);
   arguments->tracing.add_to(command);

@@ -12,7 +12,8 @@ class Usage : public ProgramTest {
 };
 
 TEST_F(Usage, HelpAndVersionOfEveryCommand) {
-  const std::vector<std::vector<std::string>> commands{{}, {"render"}, {"merge"}, {"trace"}, {"info"}, {"convert"}};
+  const std::vector<std::vector<std::string>> commands{{},        {"render"}, {"merge"},  {"denoise"},
+                                                       {"trace"}, {"info"},   {"convert"}};
   for (std::vector<std::string> words : commands) {
     words.push_back("--help");
     const Outcome help = run(words);
@@ -29,8 +30,8 @@ TEST_F(Usage, HelpAndVersionOfEveryCommand) {
 // Each wrong command line, and what its message must name.
 TEST_F(Usage, ErrorsSayWhatIsWrongAndWriteNothing) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
-      {{}, "render, merge, trace, compare, info, convert"},
-      {{"compair", "a.scad"}, "'compair'; there are: render, merge, trace, compare, info, convert"},
+      {{}, "render, merge, denoise, trace, compare, info, convert"},
+      {{"compair", "a.scad"}, "'compair'; there are: render, merge, denoise, trace, compare, info, convert"},
       {{"a.scad"}, "there is no command 'a.scad'"},
       {{"--frobnicate"}, "--frobnicate"},
       {{"render"}, "SCENE"},

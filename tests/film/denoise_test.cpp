@@ -1,0 +1,141 @@
+#include "tenon/film/denoise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/random.h"
+
+namespace tenon {
+namespace {
+
+constexpr int side = 48;
+constexpr std::size_t pixels = side * side;
+
+// A wall of one light, seen with noise; the right half is another solid that is just like it.
+struct Wall {
+  explicit Wall(double light, double error, std::uint64_t seed) {
+    Random random(seed);
+    for (const char* name : {"R", "G", "B"}) {
+      std::vector<float>& values = add(name).values;
+      for (std::size_t i = 0; i < pixels; ++i) {
+        // The sum of twelve evenly spread numbers is nearly normal, with variance 1.
+        double normal = -6;
+        for (int k = 0; k < 12; ++k) normal += random.uniform(0, 1);
+        values.push_back(static_cast<float>(light + error * normal));
+      }
+    }
+    for (const char* name : {"variance.R", "variance.G", "variance.B"}) fill(name, static_cast<float>(error * error));
+    for (const char* name : {"N.X", "N.Y"}) fill(name, 0);
+    for (const char* name : {"N.Z", "Z", "albedo.R", "albedo.G", "albedo.B"}) fill(name, 1);
+    PictureChannel& ids = picture.channels.emplace_back();
+    ids.name = "id.solid";
+    ids.type = ChannelType::uint32;
+    for (std::size_t i = 0; i < pixels; ++i) ids.numbers.push_back(i % side < side / 2 ? 1 : 2);
+  }
+
+  PictureChannel& add(const char* name) {
+    picture.channels.push_back({name, ChannelType::float32, {}, {}});
+    return picture.channels.back();
+  }
+  void fill(const char* name, float value) { add(name).values.assign(pixels, value); }
+  std::vector<float>& values(const char* name) { return const_cast<PictureChannel*>(picture.find(name))->values; }
+  void denoise(int threads = 1) {
+    const Status status = tenon::denoise(picture, "wall.exr", {.threads = threads});
+    ASSERT_TRUE(status.ok()) << status.error().message;
+  }
+  double error(double light) {
+    double sum = 0;
+    for (float v : values("G")) sum += (v - light) * (v - light);
+    return std::sqrt(sum / static_cast<double>(pixels));
+  }
+
+  Picture picture{side, side, {0, 0, side, side}, {}, {}};
+};
+
+TEST(Denoise, NoiseOfAnEvenWallGoes) {
+  for (const double error : {0.01, 0.1, 0.3}) {
+    Wall wall(0.5, error, 9);
+    const double before = wall.error(0.5);
+    wall.denoise();
+    // What the five levels average over is hundreds of pixels; ten times less is 100 of them.
+    EXPECT_LT(wall.error(0.5), before / 10) << error;
+  }
+}
+
+TEST(Denoise, PixelsOfOtherIdsAreNeverMixedIn) {
+  Wall one(0.5, 0.2, 3), other(0.5, 0.2, 3);
+  for (const char* name : {"R", "G", "B"}) {
+    for (std::size_t i = 0; i < pixels; ++i) {
+      if (i % side >= side / 2) other.values(name)[i] *= 7;
+    }
+  }
+  one.denoise();
+  other.denoise();
+  for (const char* name : {"R", "G", "B"}) {
+    for (std::size_t i = 0; i < pixels; ++i) {
+      if (i % side >= side / 2) continue;
+      ASSERT_EQ(one.values(name)[i], other.values(name)[i]) << name << ' ' << i;
+    }
+  }
+}
+
+TEST(Denoise, EdgesOfNormalDepthAndTextureStay) {
+  for (const char* what : {"N", "Z", "albedo"}) {
+    Wall wall(0.5, 0.02, 4);
+    for (std::size_t i = 0; i < pixels; ++i) {
+      if (i / side < side / 2) continue;
+      if (*what == 'N') wall.values("N.X")[i] = 1, wall.values("N.Z")[i] = 0;
+      if (*what == 'Z') wall.values("Z")[i] = 3;
+      for (const char* name : {"albedo.R", "albedo.G", "albedo.B"}) {
+        if (*what == 'a') wall.values(name)[i] = 0.25F;
+      }
+      for (const char* name : {"R", "G", "B"}) wall.values(name)[i] *= 0.25F;
+    }
+    wall.denoise();
+    double above = 0, below = 0;
+    for (int x = 0; x < side; ++x) {
+      above += wall.values("G")[static_cast<std::size_t>((side / 2 - 1) * side + x)] / side;
+      below += wall.values("G")[static_cast<std::size_t>(side / 2 * side + x)] / side;
+    }
+    EXPECT_NEAR(above, 0.5, 0.01) << what;
+    EXPECT_NEAR(below, 0.125, 0.01) << what;
+  }
+}
+
+TEST(Denoise, WhatIsCertainStaysAsItIs) {
+  Wall wall(0.5, 0.2, 6);
+  for (const char* name : {"variance.R", "variance.G", "variance.B"}) {
+    // One noisy pixel far to the right; everything on the left is certain.
+    wall.values(name).assign(pixels, 0);
+    wall.values(name).back() = 1;
+  }
+  const std::vector<float> before = wall.values("G");
+  wall.denoise();
+  for (std::size_t i = 0; i < pixels; ++i) {
+    if (i % side >= side / 2) continue;
+    ASSERT_FLOAT_EQ(wall.values("G")[i], before[i]) << i;
+  }
+}
+
+TEST(Denoise, SameBytesForAnyThreads) {
+  Wall one(0.5, 0.2, 7), many(0.5, 0.2, 7);
+  one.denoise(1);
+  many.denoise(5);
+  EXPECT_EQ(one.picture.channels, many.picture.channels);
+}
+
+TEST(Denoise, SaysWhatAPictureLacks) {
+  Wall lacking(0.5, 0.2, 1);
+  lacking.picture.channels.erase(lacking.picture.channels.begin() + 3);
+  const Status status = denoise(lacking.picture, "x.exr", {});
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().message,
+            "'x.exr' has no channel variance.R, which denoising goes by; render it with --layers "
+            "Z,N,albedo,ids,variance");
+  Wall certain(0.5, 0, 1);
+  EXPECT_FALSE(denoise(certain.picture, "x.exr", {}).ok());
+}
+
+}  // namespace
+}  // namespace tenon
