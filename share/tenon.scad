@@ -66,12 +66,15 @@ module complement() {
   }
 }
 
-module material(name, model, kd, ks, kt, ka, shininess, ior, color, priority) {
+module material(name, model, kd, ks, kt, ka, shininess, ior, color, priority, roughness, metallic, transmission, coat,
+                coat_roughness, emission, attenuation_color, attenuation_distance, texture, texture_color,
+                texture_size, turbulence) {
   if (is_undef(color)) children();
   else color(color) children();
 }
 
 module camera(from, at, up, fov, orthographic) {}
-module light(type, position, direction, angle, softness, color, intensity) {}
+module light(type, position, direction, angle, softness, color, intensity, fade_distance, radius, size, up,
+             turbidity, turn, file) {}
 module background(color) {}
 module ambient(color) {}

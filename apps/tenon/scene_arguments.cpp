@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "tenon/base/fingerprint.h"
 #include "tenon/base/parallel_for.h"
+#include "tenon/image/light_file.h"
 #include "tenon/lang/load.h"
 #include "tenon/render/camera_rays.h"
 
@@ -109,6 +110,22 @@ Result<Model> load(const SceneArguments& arguments, Console& console) {
   return model;
 }
 
+namespace {
+
+// The pictures that environment lights are made of.
+Status read_environments(std::vector<Light>& lights, Console& console) {
+  for (Light& light : lights) {
+    if (light.file.empty()) continue;
+    console.progress().begin("reading " + light.file);
+    Result<LightPicture> picture = read_light(light.file);
+    if (!picture) return picture.error();
+    light.map = std::make_shared<const LightMap>(LightMap{picture->width, picture->height, std::move(picture->rgb)});
+  }
+  return success();
+}
+
+}  // namespace
+
 Result<TraceableScene> prepare(const SceneArguments& arguments, const TracingArguments& tracing, Console& console,
                                const PictureRequest* picture) {
   if (Status status = tracing.check(); !status) return status.error();
@@ -119,6 +136,7 @@ Result<TraceableScene> prepare(const SceneArguments& arguments, const TracingArg
   Result<Scene> scene =
       compile_scene(std::move(*model), console.diagnostics(), picture != nullptr ? picture->view : ViewRequest{});
   if (!scene) return scene.error();
+  if (Status status = read_environments(scene->lights, console); !status) return status.error();
   std::optional<ScreenView> screen;
   if (picture != nullptr) {
     const Result<CameraRays> rays = CameraRays::create(scene->camera, picture->width, picture->height);

@@ -62,12 +62,38 @@ void print_material(const std::string& name, const Material& m, const Rgb& ambie
   out << " }\n";
 }
 
+// What POV-Ray's finish and light_source say nothing like.
+Status check_expressible(const Scene& scene) {
+  for (const Material& m : scene.materials) {
+    const bool course = m.model == MaterialModel::whitted || m.model == MaterialModel::phong;
+    if (course && m.texture.kind == TextureKind::none && m.emission == 0 && m.attenuation_color == Rgba{1, 1, 1, 1}) {
+      continue;
+    }
+    return Error{ErrorKind::input,
+                 "a POV-Ray scene is written with the materials \"whitted\" and \"phong\" alone, in one colour, and "
+                 "the scene has another" +
+                     (m.name.empty() ? std::string() : ", '" + m.name + "'"),
+                 {}};
+  }
+  for (const Light& light : scene.lights) {
+    const bool course =
+        light.kind == LightKind::point || light.kind == LightKind::directional || light.kind == LightKind::spot;
+    if (course && light.fade_distance == 0) continue;
+    return Error{ErrorKind::input,
+                 "a POV-Ray scene is written with point, directional and spot lights alone that do not fade, and the "
+                 "scene has another",
+                 {}};
+  }
+  return success();
+}
+
 }  // namespace
 
 Result<std::string> print_pov(const Scene& scene, int depth) {
   // The rays do not depend on the height, and on the width only by their number.
   const Result<CameraRays> camera = CameraRays::create(scene.camera, 1, 1);
   if (!camera) return camera.error();
+  if (Status status = check_expressible(scene); !status) return status.error();
   PovText out;
   print_globals(scene, depth, out);
   print_camera(camera->view(), out);

@@ -119,19 +119,83 @@ class CsgPrinter {
   void material(const Material& m) {
     out_ += "material(name = ";
     print(m.name);
-    out_ += m.model == MaterialModel::whitted ? ", model = \"whitted\"" : ", model = \"phong\"";
-    parameter("kd", m.kd);
-    parameter("ks", m.ks);
-    parameter("kt", m.kt);
-    if (m.ka) parameter("ka", *m.ka);
-    parameter("shininess", m.shininess);
-    parameter("ior", m.ior);
+    constexpr std::string_view models[] = {"whitted", "phong", "lambert", "conductor", "dielectric", "principled"};
+    parameter("model", std::string(models[static_cast<std::size_t>(m.model)]));
+    const bool course = m.model == MaterialModel::whitted || m.model == MaterialModel::phong;
+    const bool lambert = m.model == MaterialModel::lambert;
+    if (course) {
+      parameter("kd", m.kd);
+      parameter("ks", m.ks);
+      parameter("kt", m.kt);
+      if (m.ka) parameter("ka", *m.ka);
+      parameter("shininess", m.shininess);
+    } else if (!lambert) {
+      parameter("roughness", m.roughness);
+    }
+    if (m.model == MaterialModel::principled) {
+      parameter("metallic", m.metallic);
+      parameter("transmission", m.transmission);
+      parameter("coat", m.coat);
+      parameter("coat_roughness", m.coat_roughness);
+    }
+    if (!lambert && m.model != MaterialModel::conductor) parameter("ior", m.ior);
+    if (m.emission > 0) parameter("emission", m.emission);
+    if (m.attenuation_color != Rgba{1, 1, 1, 1}) {
+      out_ += ", attenuation_color = ";
+      color(m.attenuation_color);
+      parameter("attenuation_distance", m.attenuation_distance);
+    }
+    texture(m.texture);
     if (m.color) {
       out_ += ", color = ";
       color(*m.color);
     }
     parameter("priority", m.priority);
     out_ += ')';
+  }
+
+  void texture(const SolidTexture& t) {
+    if (t.kind == TextureKind::none) return;
+    constexpr std::string_view kinds[] = {"", "checker", "marble", "wood", "noise"};
+    parameter("texture", std::string(kinds[static_cast<std::size_t>(t.kind)]));
+    out_ += ", texture_color = ";
+    color(t.second);
+    parameter("texture_size", t.size);
+    parameter("turbulence", t.turbulence);
+  }
+
+  void light(const Light& light) {
+    constexpr std::string_view types[] = {"point", "directional", "spot", "rectangle", "sphere", "environment", "sky"};
+    out_ += "light(type = ";
+    print(std::string(types[static_cast<std::size_t>(light.kind)]));
+    const bool has_place = light.kind == LightKind::point || light.kind == LightKind::spot;
+    if (has_place || light.kind == LightKind::rectangle || light.kind == LightKind::sphere) {
+      parameter("position", light.position);
+    }
+    if (!has_place && light.kind != LightKind::sphere && light.kind != LightKind::environment) {
+      parameter("direction", light.direction);
+    }
+    if (light.kind == LightKind::spot) {
+      parameter("direction", light.direction);
+      parameter("angle", light.angle);
+      parameter("softness", light.softness);
+    }
+    if (has_place) parameter("fade_distance", light.fade_distance);
+    if (light.kind == LightKind::sphere) parameter("radius", light.radius);
+    if (light.kind == LightKind::rectangle) {
+      out_ += ", size = ";
+      numbers(std::array{length(light.edge_u), length(light.edge_v)});
+      parameter("up", light.edge_v);
+    }
+    if (light.kind == LightKind::sky) parameter("turbidity", light.turbidity);
+    if (light.kind == LightKind::environment) {
+      parameter("turn", light.turn);
+      if (!light.file.empty()) parameter("file", light.file);
+    }
+    out_ += ", color = ";
+    color(light.color);
+    parameter("intensity", light.intensity);
+    out_ += ");\n";
   }
 
   void print_surroundings() {
@@ -147,20 +211,7 @@ class CsgPrinter {
       }
       out_ += ");\n";
     }
-    for (const Light& light : model_.lights) {
-      constexpr std::string_view types[] = {"point", "directional", "spot"};
-      out_ += "light(type = \"";
-      out_ += types[static_cast<std::size_t>(light.kind)];
-      out_ += '"';
-      parameter("position", light.position);
-      parameter("direction", light.direction);
-      parameter("angle", light.angle);
-      parameter("softness", light.softness);
-      out_ += ", color = ";
-      color(light.color);
-      parameter("intensity", light.intensity);
-      out_ += ");\n";
-    }
+    for (const Light& l : model_.lights) light(l);
     if (model_.background) color_statement("background", *model_.background);
     if (model_.ambient) color_statement("ambient", *model_.ambient);
   }

@@ -51,24 +51,161 @@ std::optional<Solid> color(ModuleCall& call) {
   return c ? builder.wrap(ColorAttribute{*c}, parts) : builder.unite(parts);
 }
 
-enum MaterialParameter : std::size_t { name, model, kd, ks, kt, ka, shininess, ior, color_, priority };
-constexpr std::string_view material_names[] = {"name", "model",     "kd",  "ks",    "kt",
-                                               "ka",   "shininess", "ior", "color", "priority"};
+enum MaterialParameter : std::size_t {
+  name,
+  model,
+  kd,
+  ks,
+  kt,
+  ka,
+  shininess,
+  ior,
+  color_,
+  priority,
+  roughness,
+  metallic,
+  transmission,
+  coat,
+  coat_roughness,
+  emission,
+  attenuation_color,
+  attenuation_distance,
+  texture,
+  texture_color,
+  texture_size,
+  turbulence
+};
+constexpr std::string_view material_names[] = {"name",
+                                               "model",
+                                               "kd",
+                                               "ks",
+                                               "kt",
+                                               "ka",
+                                               "shininess",
+                                               "ior",
+                                               "color",
+                                               "priority",
+                                               "roughness",
+                                               "metallic",
+                                               "transmission",
+                                               "coat",
+                                               "coat_roughness",
+                                               "emission",
+                                               "attenuation_color",
+                                               "attenuation_distance",
+                                               "texture",
+                                               "texture_color",
+                                               "texture_size",
+                                               "turbulence"};
 
-MaterialModel require_model(const ModuleArguments& arguments) {
-  const String* text = arguments[model].string();
-  if (text && text->text() == "whitted") return MaterialModel::whitted;
-  if (text && text->text() == "phong") return MaterialModel::phong;
-  fail(arguments.at(model), "'model' must be \"whitted\" or \"phong\"");
+constexpr std::pair<std::string_view, MaterialModel> material_models[] = {
+    {"whitted", MaterialModel::whitted},       {"phong", MaterialModel::phong},
+    {"lambert", MaterialModel::lambert},       {"conductor", MaterialModel::conductor},
+    {"dielectric", MaterialModel::dielectric}, {"principled", MaterialModel::principled}};
+
+constexpr std::pair<std::string_view, TextureKind> texture_kinds[] = {{"checker", TextureKind::checker},
+                                                                      {"marble", TextureKind::marble},
+                                                                      {"wood", TextureKind::wood},
+                                                                      {"noise", TextureKind::noise}};
+
+// One of a list of words.
+template <class Entries>
+auto require_word(const ModuleArguments& arguments, MaterialParameter parameter, const Entries& entries) {
+  const String* text = arguments[parameter].string();
+  std::string all;
+  for (const auto& [word, meaning] : entries) {
+    if (text && text->text() == word) return meaning;
+    all += (all.empty() ? "\"" : ", \"") + std::string(word) + '"';
+  }
+  fail(arguments.at(parameter), "'" + std::string(material_names[parameter]) + "' must be one of " + all);
 }
 
-void set_number(const ModuleArguments& arguments, MaterialParameter parameter, double least, double& field) {
+void set_number(const ModuleArguments& arguments, MaterialParameter parameter, double least, double& field,
+                double most = HUGE_VAL) {
   if (!arguments.given(parameter)) return;
   field = require_number(arguments, parameter, material_names[parameter]);
-  if (field < least) {
-    fail(arguments.at(parameter),
-         "'" + std::string(material_names[parameter]) + "' must be at least " + format_number(least));
+  const std::string called = "'" + std::string(material_names[parameter]) + "' must ";
+  if (field < least) fail(arguments.at(parameter), called + "be at least " + format_number(least));
+  if (field > most) {
+    fail(arguments.at(parameter), called + "lie between " + format_number(least) + " and " + format_number(most));
   }
+}
+
+Rgba require_color(const ModuleArguments& arguments, MaterialParameter parameter) {
+  const std::optional<Rgba> c = to_color(arguments[parameter]);
+  if (c) return *c;
+  fail(arguments.at(parameter),
+       "'" + std::string(material_names[parameter]) + "' must be a CSS name, \"#rrggbb\" or [r, g, b]");
+}
+
+// What a parameter says that only some models have; others refuse it.
+void check_model_parameters(const ModuleArguments& arguments, const Material& m) {
+  const bool course = m.model == MaterialModel::whitted || m.model == MaterialModel::phong;
+  const bool lambert = m.model == MaterialModel::lambert, principled = m.model == MaterialModel::principled;
+  const std::pair<MaterialParameter, bool> has[] = {{kd, course},
+                                                    {ks, course},
+                                                    {kt, course},
+                                                    {ka, course},
+                                                    {shininess, course},
+                                                    {metallic, principled},
+                                                    {transmission, principled},
+                                                    {coat, principled},
+                                                    {coat_roughness, principled},
+                                                    {roughness, !course && !lambert},
+                                                    {ior, !lambert && m.model != MaterialModel::conductor}};
+  for (const auto& [parameter, is_known] : has) {
+    if (!arguments.given(parameter) || is_known) continue;
+    const std::string_view called = material_models[static_cast<std::size_t>(m.model)].first;
+    fail(arguments.at(parameter),
+         "a material of model \"" + std::string(called) + "\" has no '" + std::string(material_names[parameter]) + "'");
+  }
+}
+
+void set_texture(ModuleCall& call, const ModuleArguments& arguments, Material& m) {
+  for (const MaterialParameter parameter : {texture_color, texture_size, turbulence}) {
+    if (arguments.given(parameter) && !arguments.given(texture)) {
+      fail(arguments.at(parameter), "'" + std::string(material_names[parameter]) + "' needs a 'texture'");
+    }
+  }
+  if (!arguments.given(texture)) return;
+  m.texture.kind = require_word(arguments, texture, texture_kinds);
+  if (arguments.given(texture_color)) m.texture.second = require_color(arguments, texture_color);
+  set_number(arguments, texture_size, 0, m.texture.size);
+  if (m.texture.size == 0) fail(arguments.at(texture_size), "'texture_size' must be greater than 0");
+  set_number(arguments, turbulence, 0, m.texture.turbulence);
+  const auto inverse = call.evaluator.world_from_here.inverse();
+  if (!inverse) fail(call.at(), "the transformation around it makes the texture flat; scale it otherwise");
+  m.texture.texture_from_world = *inverse;
+}
+
+void set_attenuation(const ModuleArguments& arguments, Material& m) {
+  if (arguments.given(attenuation_color) != arguments.given(attenuation_distance)) {
+    const MaterialParameter given = arguments.given(attenuation_color) ? attenuation_color : attenuation_distance;
+    fail(arguments.at(given), "'attenuation_color' is what light keeps over 'attenuation_distance'; give both");
+  }
+  if (!arguments.given(attenuation_color)) return;
+  m.attenuation_color = require_color(arguments, attenuation_color);
+  for (const double band : {m.attenuation_color.r, m.attenuation_color.g, m.attenuation_color.b}) {
+    if (!(band >= 0 && band <= 1)) {
+      fail(arguments.at(attenuation_color), "a colour that light keeps has components between 0 and 1");
+    }
+  }
+  set_number(arguments, attenuation_distance, 0, m.attenuation_distance);
+  if (m.attenuation_distance == 0)
+    fail(arguments.at(attenuation_distance), "'attenuation_distance' must be greater than 0");
+  if (!m.is_transparent()) {
+    fail(arguments.at(attenuation_color),
+         "light is attenuated inside of transparent materials alone; this one is opaque");
+  }
+}
+
+// A preset is of the course's model; what it says of others is its colour and its index.
+void set_model(const ModuleArguments& arguments, Material& m) {
+  if (!arguments.given(model)) return;
+  m.model = require_word(arguments, model, material_models);
+  const bool has_index = m.model == MaterialModel::dielectric || m.model == MaterialModel::principled;
+  if (has_index && m.ior == 1) m.ior = 1.5;
+  if (m.model == MaterialModel::principled) m.roughness = 0.5;
 }
 
 Material material_of(ModuleCall& call) {
@@ -81,7 +218,8 @@ Material material_of(ModuleCall& call) {
   }
   Material m = material_preset(called);
   m.name = called;
-  if (arguments.given(model)) m.model = require_model(arguments);
+  set_model(arguments, m);
+  check_model_parameters(arguments, m);
   set_number(arguments, kd, 0, m.kd);
   set_number(arguments, ks, 0, m.ks);
   set_number(arguments, kt, 0, m.kt);
@@ -92,14 +230,23 @@ Material material_of(ModuleCall& call) {
     set_number(arguments, ior, 0, m.ior);
     if (m.ior == 0) fail(arguments.at(ior), "'ior' must be greater than 0; it is 1 for air and 1.5 for glass");
   }
-  if (arguments.given(color_)) {
-    m.color = to_color(arguments[color_]);
-    if (!m.color) fail(arguments.at(color_), "'color' must be a CSS name, \"#rrggbb\" or [r, g, b]");
+  if (arguments.given(color_)) m.color = require_color(arguments, color_);
+  for (const auto& [parameter, field] :
+       std::initializer_list<std::pair<MaterialParameter, double*>>{{roughness, &m.roughness},
+                                                                    {metallic, &m.metallic},
+                                                                    {transmission, &m.transmission},
+                                                                    {coat, &m.coat},
+                                                                    {coat_roughness, &m.coat_roughness}}) {
+    set_number(arguments, parameter, 0, *field, 1);
   }
+  set_number(arguments, emission, 0, m.emission);
+  set_attenuation(arguments, m);
+  set_texture(call, arguments, m);
   return m;
 }
 
 void check_energy(ModuleCall& call, const Material& m) {
+  if (m.model != MaterialModel::whitted && m.model != MaterialModel::phong) return;
   const double sum = m.kd + m.ks + m.kt;
   // Three decimal fractions that add up to 1 miss it by the rounding of each, of its derivation from the others, and of
   // the additions.

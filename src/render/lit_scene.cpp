@@ -4,67 +4,181 @@
 #include <cmath>
 #include <limits>
 
-#include "tenon/math/affine3.h"
+#include "csg/csg_tree.h"
+#include "render/optics.h"
+#include "render/solid_texture.h"
 
 namespace tenon {
 
 namespace {
 
-Reflectance reflectance_of(const Material& material, const Rgb& ambient_light) {
-  const Rgb color = linear_from_srgb(material.color.value_or(Rgba{1, 1, 1, 1}));
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+// The course knows nothing of microfacets: what a newer model spreads is diffuse, and what it reflects is a mirror's.
+Reflectance reflectance_of(const Material& material) {
   Reflectance r;
-  r.ambient = material.ka.value_or(material.kd) * color * ambient_light;
-  r.diffuse = material.kd * color;
-  r.specular = material.ks;
   r.shininess = material.shininess;
-  if (material.model == MaterialModel::whitted) {
-    r.reflected = material.ks;
-    r.transmitted = material.kt;
+  r.ior = material.ior;
+  const Rgb color = linear_from_srgb(material.color.value_or(Rgba{1, 1, 1, 1}));
+  switch (material.model) {
+    case MaterialModel::phong:
+    case MaterialModel::whitted:
+      r.ambient = material.ka.value_or(material.kd);
+      r.diffuse = material.kd;
+      r.specular = material.ks;
+      if (material.model == MaterialModel::phong) break;
+      r.reflected = {material.ks, material.ks, material.ks};
+      r.transmitted = material.kt;
+      break;
+    case MaterialModel::lambert:
+      r.ambient = r.diffuse = 1;
+      break;
+    case MaterialModel::conductor:
+      r.reflected = color;
+      break;
+    case MaterialModel::dielectric:
+      r.transmitted = r.fresnel = 1;
+      break;
+    case MaterialModel::principled:
+      r.reflected = material.metallic * color;
+      r.transmitted = (1 - material.metallic) * material.transmission;
+      r.fresnel = 1 - material.metallic;
+      r.ambient = r.diffuse = (1 - material.metallic) * (1 - material.transmission);
+      break;
   }
   return r;
 }
 
-}  // namespace
-
-LitLight::LitLight(const Light& light)
-    : kind_(light.kind),
-      position_(light.position),
-      direction_(normalize(light.direction)),
-      cos_inner_(cos_degrees(light.angle * (1 - light.softness))),
-      cos_outer_(cos_degrees(light.angle)),
-      emitted_(light.intensity * linear_from_srgb(light.color)) {}
-
-IncidentLight LitLight::at(const Vec3& point) const {
-  if (kind_ == LightKind::directional) return {-direction_, std::numeric_limits<double>::infinity(), emitted_};
-  const Vec3 to_light = position_ - point;
-  return {to_light, 1, kind_ == LightKind::spot ? spot_share(to_light) * emitted_ : emitted_};
+bool has_media_of_one_index(const std::vector<Medium>& media) {
+  for (std::size_t i = medium_opaque + 1; i < media.size(); ++i) {
+    if (media[i].ior == media[medium_outside].ior) return true;
+    for (std::size_t j = i + 1; j < media.size(); ++j) {
+      if (media[i].ior == media[j].ior) return true;
+    }
+  }
+  return false;
 }
 
-// 1 in the inner cone, 0 outside the outer one; between them the smooth step, which has no visible edge.
-double LitLight::spot_share(const Vec3& to_light) const {
-  const double cos_angle = -dot(normalize(to_light), direction_);
-  if (cos_angle >= cos_inner_) return 1;
-  if (cos_angle <= cos_outer_) return 0;
-  const double x = (cos_angle - cos_outer_) / (cos_inner_ - cos_outer_);
-  return x * x * (3 - 2 * x);
+}  // namespace
+
+LitScene::LitScene(const Scene& scene)
+    : media_(scene.media),
+      has_unbent_(has_media_of_one_index(scene.media)),
+      background_(scene.background),
+      ambient_(scene.ambient),
+      shows_around_(scene.shows_environment) {
+  materials_.reserve(scene.materials.size() + 1);
+  materials_.push_back(prepare(scene.default_material));
+  for (const Material& m : scene.materials) materials_.push_back(prepare(m));
+  prepare_lights(scene);
+}
+
+LitScene::Prepared LitScene::prepare(const Material& material) {
+  return {linear_from_srgb(material.color.value_or(Rgba{1, 1, 1, 1})),
+          linear_from_srgb(material.texture.second),
+          material.texture,
+          material.emission,
+          reflectance_of(material),
+          Surface(material, tables_)};
+}
+
+void LitScene::prepare_lights(const Scene& scene) {
+  lights_.reserve(scene.lights.size());
+  for (const Light& light : scene.lights) {
+    const Environment* environment = light.is_around() ? &environments_.emplace_back(light) : nullptr;
+    lights_.emplace_back(light, environment);
+    has_light_surfaces_ |= lights_.back().has_surface();
+    if (environment != nullptr) around_ = &lights_.back();
+  }
+  // A crossing lies within the tolerance of its face, divided by the slope, and so does the light's surface.
+  if (scene.tree) margin_ = 2 * scene.tree->tolerance.distance;
+}
+
+Rgb LitScene::color(const Hit& hit) const {
+  const Prepared& material = prepared(hit.material);
+  if (material.texture.kind == TextureKind::none) return material.color;
+  const double share = second_share(material.texture, hit.point);
+  return (1 - share) * material.color + share * material.second;
+}
+
+Rgb LitScene::emitted(const Hit& hit) const {
+  const Prepared& material = prepared(hit.material);
+  return material.emission > 0 ? material.emission * color(hit) : Rgb{};
 }
 
 Rgb LitScene::albedo(const Hit& hit) const {
-  const Reflectance& surface = reflectance(hit.material);
-  const double specular = surface.specular + surface.transmitted;
-  const auto share = [specular](double diffuse) { return std::clamp(diffuse + specular, 0.0, 1.0); };
-  return {share(surface.diffuse.r), share(surface.diffuse.g), share(surface.diffuse.b)};
+  const Reflectance& r = reflectance(hit.material);
+  const Rgb diffuse = r.diffuse * color(hit);
+  const auto share = [&](double band, double reflected) {
+    return std::clamp(band + std::max(r.specular, reflected) + r.transmitted, 0.0, 1.0);
+  };
+  return {share(diffuse.r, r.reflected.r), share(diffuse.g, r.reflected.g), share(diffuse.b, r.reflected.b)};
 }
 
-LitScene::LitScene(const Scene& scene)
-    : default_material_(reflectance_of(scene.default_material, scene.ambient)),
-      medium_ior_(scene.medium_ior),
-      background_(scene.background),
-      ambient_(scene.ambient) {
-  materials_.reserve(scene.materials.size());
-  for (const Material& m : scene.materials) materials_.push_back(reflectance_of(m, scene.ambient));
-  lights_.reserve(scene.lights.size());
-  for (const Light& l : scene.lights) lights_.emplace_back(l);
+Boundary LitScene::boundary(const Hit& hit) const {
+  return {ior(hit.before), ior(hit.after), hit.after == medium_opaque};
+}
+
+Rgb LitScene::attenuation(MediumId medium, double length) const {
+  if (medium <= medium_opaque || medium >= media_.size()) return {1, 1, 1};
+  const Rgb& k = media_[medium].attenuation;
+  // Nothing is taken off by 0 however long the way.
+  const auto left = [length](double band) { return band > 0 ? std::exp(-band * length) : 1; };
+  return {left(k.r), left(k.g), left(k.b)};
+}
+
+Rgb LitScene::beyond(const Vec3& direction, bool is_camera_ray, bool is_sharp) const {
+  if (around_ != nullptr) {
+    return is_camera_ray && !shows_around_ ? background_ : around_->environment()->radiance(direction);
+  }
+  return is_sharp ? background_ : ambient_;
+}
+
+LightChoice LitScene::choose_light(const Vec3& point, double choice) const {
+  double total = 0;
+  for (const LitLight& light : lights_) total += light.importance(point);
+  if (!(total > 0)) return {};
+  double rest = choice * total;
+  LightChoice last;
+  for (const LitLight& light : lights_) {
+    const double importance = light.importance(point);
+    if (!(importance > 0)) continue;
+    last = {&light, importance / total};
+    if (rest < importance) break;
+    rest -= importance;
+  }
+  return last;
+}
+
+double LitScene::choice_probability(const LitLight& light, const Vec3& point) const {
+  double total = 0;
+  for (const LitLight& other : lights_) total += other.importance(point);
+  return total > 0 ? light.importance(point) / total : 0;
+}
+
+std::optional<std::pair<const LitLight*, LightHit>> LitScene::first_light(const Ray& ray, double t_max) const {
+  std::optional<std::pair<const LitLight*, LightHit>> first;
+  if (!has_light_surfaces_) return first;
+  double nearest = inf;
+  for (const LitLight& light : lights_) {
+    const auto hit = light.intersect(ray);
+    if (!hit || !(hit->t < nearest) || hit->t - light_margin(hit->cos) > t_max) continue;
+    nearest = hit->t;
+    first.emplace(&light, *hit);
+  }
+  return first;
+}
+
+bool LitScene::is_blocked_by_light(const Ray& ray, double t_max, const LitLight* to) const {
+  if (!has_light_surfaces_) return false;
+  const double length_of_one = length(ray.direction);
+  const Ray normal_ray{ray.origin, ray.direction / length_of_one};
+  for (const LitLight& light : lights_) {
+    if (&light == to) continue;
+    const auto hit = light.intersect(normal_ray);
+    if (hit && hit->t < t_max * length_of_one) return true;
+  }
+  return false;
 }
 
 }  // namespace tenon

@@ -1,43 +1,34 @@
 #pragma once
 
+#include <deque>
+#include <optional>
 #include <vector>
 
+#include "render/lit_light.h"
+#include "render/surface.h"
 #include "tenon/math/color.h"
 #include "tenon/math/vec3.h"
 #include "tenon/scene/scene.h"
 
 namespace tenon {
 
-/// A material as the illumination model uses it: the factors of the course's formula with the object's colour C in.
+/// A material as the illumination model of the course uses it: the factors of its formula. The colour C comes with the
+/// place.
 struct Reflectance {
-  Rgb ambient;             ///< ka C Ia
-  Rgb diffuse;             ///< kd C
+  double ambient = 0;      ///< ka
+  double diffuse = 0;      ///< kd
   double specular = 0;     ///< ks of the direct term
   double shininess = 0;    ///< n
-  double reflected = 0;    ///< ks of the reflected ray; 0 for phong
-  double transmitted = 0;  ///< kt; 0 for phong, which is opaque
+  Rgb reflected;           ///< ks of the reflected ray; 0 for phong
+  double transmitted = 0;  ///< kt; 0 where it is opaque
+  double fresnel = 0;  ///< the share that is reflected beside `reflected`, by Fresnel; the rest of it is transmitted
+  double ior = 1;      ///< of the material, for Fresnel where it is opaque
 };
 
-/// What a light sends to a point.
-struct IncidentLight {
-  Vec3 to_light;     ///< from the point; its length is the distance where the light has a place
-  double t_max = 0;  ///< along to_light: where the light stands
-  Rgb light;         ///< Ij; black where the light does not reach
-};
-
-/// A light with everything that does not depend on the point worked out.
-class LitLight {
- public:
-  explicit LitLight(const Light& light);
-  IncidentLight at(const Vec3& point) const;
-
- private:
-  double spot_share(const Vec3& to_light) const;
-
-  LightKind kind_;
-  Vec3 position_, direction_;
-  double cos_inner_, cos_outer_;  // of the spot's full light, and of its end
-  Rgb emitted_;
+/// A light that is drawn among all.
+struct LightChoice {
+  const LitLight* light = nullptr;
+  double probability = 0;
 };
 
 /// A scene prepared for shading.
@@ -45,20 +36,80 @@ class LitScene {
  public:
   explicit LitScene(const Scene& scene);
 
-  const Reflectance& reflectance(MaterialId id) const { return id ? materials_[id.get()] : default_material_; }
+  /// @name Surfaces
+  /// @{
+  const Reflectance& reflectance(MaterialId id) const { return prepared(id).reflectance; }
+  const Surface& surface(MaterialId id) const { return prepared(id).surface; }
+  /// The colour of the material where the hit is, linear.
+  Rgb color(const Hit& hit) const;
+  /// What the surface sends out by itself.
+  Rgb emitted(const Hit& hit) const;
   /// The share of light that the surface returns, in whatever direction.
   Rgb albedo(const Hit& hit) const;
+  /// @}
+
+  /// @name Media
+  /// @{
+  double ior(MediumId medium) const { return medium < media_.size() ? media_[medium].ior : 1.0; }
+  Boundary boundary(const Hit& hit) const;
+  /// What is left of light on its way through a medium.
+  Rgb attenuation(MediumId medium, double length) const;
+  /// Whether light may go straight on through some boundary.
+  bool has_unbent() const { return has_unbent_; }
+  /// @}
+
+  /// @name Lights
+  /// @{
   const std::vector<LitLight>& lights() const { return lights_; }
-  const Rgb& background() const { return background_; }
   const Rgb& ambient() const { return ambient_; }
-  double ior(MediumId medium) const { return medium < medium_ior_.size() ? medium_ior_[medium] : 1.0; }
+  const Rgb& background() const { return background_; }
+  /// The world around, when the scene names it.
+  const LitLight* around() const { return around_; }
+  /// What a ray shows that meets nothing.
+  /// @param is_camera_ray  nothing has bent it since it left the camera
+  /// @param is_sharp       nothing has spread it since then: it met mirrors and clear glass alone
+  Rgb beyond(const Vec3& direction, bool is_camera_ray, bool is_sharp) const;
+
+  /// Draws a light in proportion to what reaches a point, shadows aside; lights of a uniform world are not drawn.
+  LightChoice choose_light(const Vec3& point, double choice) const;
+  /// The probability of that light in choose_light().
+  double choice_probability(const LitLight& light, const Vec3& point) const;
+
+  /// The nearest surface of a light that a ray meets.
+  /// @param ray    of length 1
+  /// @param t_max  light that lies in a solid's face there counts as before it
+  std::optional<std::pair<const LitLight*, LightHit>> first_light(const Ray& ray, double t_max) const;
+  /// Whether a light other than `to` stands in the way. The ray need not have length 1.
+  bool is_blocked_by_light(const Ray& ray, double t_max, const LitLight* to) const;
+  /// How far before a light's surface solids may lie that count as lying in it.
+  /// @param cos  between the ray and the surface's normal
+  double light_margin(double cos) const { return margin_ / cos; }
+  /// @}
 
  private:
-  Reflectance default_material_;
-  std::vector<Reflectance> materials_;
+  struct Prepared {
+    Rgb color, second;
+    SolidTexture texture;
+    double emission;
+    Reflectance reflectance;
+    Surface surface;
+  };
+
+  const Prepared& prepared(MaterialId id) const { return materials_[id ? id.get() + 1 : 0]; }
+  Prepared prepare(const Material& material);
+  void prepare_lights(const Scene& scene);
+
+  AlbedoTables tables_;
+  std::vector<Prepared> materials_;  // the default one, then those of the scene
+  std::vector<Medium> media_;
+  bool has_unbent_ = false;
   std::vector<LitLight> lights_;
-  std::vector<double> medium_ior_;
+  std::deque<Environment> environments_;
+  const LitLight* around_ = nullptr;
+  bool has_light_surfaces_ = false;
+  double margin_ = 0;
   Rgb background_, ambient_;
+  bool shows_around_ = false;
 };
 
 }  // namespace tenon

@@ -26,4 +26,23 @@ inline std::optional<Vec3> refract(const Vec3& d, const Vec3& n, double eta) {
   return normalize(eta * d + (eta * cos_in - std::sqrt(cos_out_squared)) * n);
 }
 
+/// The share of unpolarised light that a boundary of two dielectrics reflects (Fresnel).
+/// @param cos_in  of the angle to the normal, before the boundary
+/// @param eta     index of refraction before the boundary over that behind it
+inline double fresnel_dielectric(double cos_in, double eta) {
+  const double sin_squared = eta * eta * (1 - cos_in * cos_in);
+  if (sin_squared >= 1) return 1;
+  const double cos_out = std::sqrt(1 - sin_squared);
+  const double parallel = (cos_in - eta * cos_out) / (cos_in + eta * cos_out);
+  const double perpendicular = (eta * cos_in - cos_out) / (eta * cos_in + cos_out);
+  return 0.5 * (parallel * parallel + perpendicular * perpendicular);
+}
+
+/// What a conductor reflects (Schlick 1994), for one band.
+/// @param f0  what it reflects straight on
+inline double fresnel_schlick(double cos_in, double f0) {
+  const double x = 1 - cos_in, x2 = x * x;
+  return f0 + (1 - f0) * (x2 * x2 * x);
+}
+
 }  // namespace tenon

@@ -4,8 +4,18 @@
 
 #include "render/integrator.h"
 #include "render/lit_scene.h"
+#include "render/passed_boundaries.h"
+#include "render/sphere_sampling.h"
 
 namespace tenon {
+
+/// Which of two ways to find light with extent counts: drawing a place of the light, or a direction of the surface's
+/// BSDF. Each alone gives the same picture in the end, and is noisy where the other is not.
+enum class LightStrategy {
+  both,    ///< weighted by the power heuristic (Veach 1997, §9.2)
+  lights,  ///< where light is spread, it is found by lights alone
+  bsdf,    ///< lights without extent are still asked
+};
 
 /// Path tracing (Kajiya, "The Rendering Equation", 1986) with next-event estimation: at each surface one light is drawn
 /// and asked for what it sends there, and the path goes on in a drawn direction. Paths end by Russian roulette, without
@@ -13,11 +23,14 @@ namespace tenon {
 ///
 /// The paths of a call are followed together: one call of the structure for the next surfaces of all of them, one for
 /// their shadow rays.
+///
+/// Light that a light without extent sends through glass that bends it is not found: no path can be drawn that way.
 class PathIntegrator final : public Integrator {
  public:
   /// @param depth  surfaces along a path that send light to it; 1: light that comes straight from lights
-  PathIntegrator(const LitScene& scene, const Accelerator& accelerator, const Sampler& sampler, int depth)
-      : scene_(scene), accelerator_(accelerator), sampler_(sampler), depth_(depth) {}
+  PathIntegrator(const LitScene& scene, const Accelerator& accelerator, const Sampler& sampler, int depth,
+                 LightStrategy strategy = LightStrategy::both)
+      : scene_(scene), accelerator_(accelerator), sampler_(sampler), depth_(depth), strategy_(strategy) {}
 
   void radiance(std::span<const RayQuery> primary, std::span<const Hit> hits, std::span<const SampleId> samples,
                 std::span<Rgb> light, TraceContext& context) override;
@@ -25,21 +38,41 @@ class PathIntegrator final : public Integrator {
  private:
   struct Path {
     Rgb throughput{1, 1, 1};
+    double growth = 1;       // of radiance by refraction, which is no reason for a path to end or go on
+    Vec3 vertex;             // where light was spread last
+    double density = 0;      // of the direction taken there; 0: it was the only one
     std::uint32_t slot = 0;  // into the spans of radiance()
+    bool is_camera_ray = true;
+    bool is_sharp = true;  // nothing has spread it
   };
   struct ShadowRay {
     Rgb light;
     std::uint32_t slot = 0;
+    MediumId medium = medium_outside;
   };
 
-  void shade(const Path& path, const RayQuery& query, const Hit& hit, const SampleId& sample, int bounce, Rgb& light);
-  void connect(const Path& path, const Hit& hit, const Vec3& normal, const Rgb& albedo, double choice);
+  /// What a bounce is about.
+  struct Vertex {
+    const Hit& hit;
+    const Frame& frame;
+    const Bsdf& bsdf;
+    const SampleId& sample;
+    int bounce;
+  };
+
+  void shade(Path path, const RayQuery& query, const Hit& hit, const SampleId& sample, int bounce, Rgb& light);
+  void connect(const Path& path, const Vertex& vertex, double choice);
+  void go_on(Path path, const Vertex& vertex, double choice);
+  double weight(double density, double other) const;
+  double weight_of_met_light(const Path& path, const LitLight& light, double density) const;
   void trace_shadow_rays(std::span<Rgb> light, TraceContext& context);
+  Rgb transmittance(const RayQuery& query, MediumId medium, TraceContext& context);
 
   const LitScene& scene_;
   const Accelerator& accelerator_;
   Sampler sampler_;
   int depth_;
+  LightStrategy strategy_;
 
   std::vector<Path> paths_, next_paths_;
   std::vector<RayQuery> queries_, next_queries_;
@@ -47,6 +80,7 @@ class PathIntegrator final : public Integrator {
   std::vector<RayQuery> shadow_queries_;
   std::vector<ShadowRay> shadow_rays_;
   std::vector<RayBoundary> occluders_;
+  PassedBoundaries passed_;
 };
 
 }  // namespace tenon

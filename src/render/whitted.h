@@ -4,6 +4,7 @@
 
 #include "render/integrator.h"
 #include "render/lit_scene.h"
+#include "render/passed_boundaries.h"
 #include "tenon/accel/accelerator.h"
 #include "tenon/math/color.h"
 
@@ -18,6 +19,9 @@ struct RecursionLimits {
 /// The complete illumination model of Bouatouch's course:
 ///
 ///   I = kd C Ia  +  kd C Σ Ij cos(Lj, N)  +  ks Σ Ij cos(N, Hj)^n  +  ks I(reflected ray)  +  kt I(refracted ray)
+///
+/// Of what came after the course it shows what the formula has a place for: lights with extent stand in their middle,
+/// dielectrics share ks and kt by Fresnel, roughness is not seen, media attenuate.
 ///
 /// Nothing in it is drawn at random.
 class WhittedIntegrator final : public Integrator {
@@ -41,20 +45,21 @@ class WhittedIntegrator final : public Integrator {
     Ray ray;
     RayKind kind;
     int level;
-    double weight;
+    Rgb weight;
     Hit from;
   };
 
   Rgb local_light(const Ray& ray, const Hit& hit, const Vec3& normal, TraceContext& context);
-  double transmittance(const Hit& hit, const IncidentLight& incident, TraceContext& context);
-  void branch(const Ray& ray, const Hit& hit, const Vec3& normal, double weight, int level);
-  void push(const Hit& from, const Vec3& direction, RayKind kind, double weight, int level);
+  Rgb transmittance(const Hit& hit, const LitLight& light, const IncidentLight& incident, TraceContext& context);
+  double transmitted(const Hit& boundary, const Vec3& direction) const;
+  void branch(const Ray& ray, const Hit& hit, const Vec3& normal, const Rgb& weight, int level);
+  void push(const Hit& from, const Vec3& direction, RayKind kind, const Rgb& weight, int level);
 
   const LitScene& scene_;
   const Accelerator& accelerator_;
   RecursionLimits limits_;
   std::vector<Pending> pending_;
-  std::vector<double> factors_;
+  PassedBoundaries passed_;
 };
 
 }  // namespace tenon

@@ -19,6 +19,13 @@ constexpr Rgba default_color{0.92, 0.76, 0.42, 1};
 constexpr Rgba default_background{0.93, 0.95, 0.97, 1};
 constexpr Rgba default_ambient{0.52, 0.52, 0.54, 1};
 
+// Beer's law. No light at all is left of a band of colour 0, however thin the solid.
+Rgb attenuation_of(const Material& material) {
+  const Rgb kept = linear_from_srgb(material.attenuation_color);
+  const auto per_length = [&](double band) { return std::max(0.0, -std::log(band) / material.attenuation_distance); };
+  return {per_length(kept.r), per_length(kept.g), per_length(kept.b)};
+}
+
 /// Gives each leaf the one material that follows from its `material` and its `color`, and numbers the media.
 class MaterialCompiler {
  public:
@@ -53,7 +60,9 @@ class MaterialCompiler {
   Material combine(MaterialId named, const std::optional<Rgba>& color) const {
     Material m = named ? named_[named.get()] : scene_.default_material;
     const bool own_color = named && m.color;
-    if (!own_color) m.color = color ? color : default_color;
+    // Glass that nobody coloured is clear.
+    const bool is_clear = named && m.model == MaterialModel::dielectric;
+    if (!own_color) m.color = color ? color : is_clear ? Rgba{1, 1, 1, 1} : default_color;
     if (!named && color && color->a < 1) {
       m.model = MaterialModel::whitted;
       m.kd = color->a;
@@ -66,13 +75,12 @@ class MaterialCompiler {
 
   // Solids of one transparent material are one medium; all opaque ones are another.
   MediumId medium_of(const Material& material) {
-    // `phong` follows no refracted ray: it is opaque whatever its kt.
-    if (!(material.kt > 0) || material.model == MaterialModel::phong) return medium_opaque;
+    if (!material.is_transparent()) return medium_opaque;
     for (std::size_t i = 0; i < media_.size(); ++i) {
       if (media_[i] == material) return static_cast<MediumId>(i + 2);
     }
     media_.push_back(material);
-    scene_.medium_ior.push_back(material.ior);
+    scene_.media.push_back({material.ior, attenuation_of(material)});
     return static_cast<MediumId>(media_.size() + 1);
   }
 
@@ -133,6 +141,7 @@ Result<Scene> compile_scene(Model model, Diagnostics& diagnostics, const ViewReq
   scene.camera = choose_camera(view, model.camera, *tree, model.section);
   scene.lights = model.lights.empty() ? default_lights(lit_bounds(*tree), scene.camera) : std::move(model.lights);
   scene.background = linear_from_srgb(model.background.value_or(default_background));
+  scene.shows_environment = !model.background;
   scene.ambient = linear_from_srgb(model.ambient.value_or(default_ambient));
   scene.tree = std::move(tree);
   return scene;

@@ -92,7 +92,11 @@ TEST(View, IsNoOperand) {
 }
 
 TEST(View, MistakesAreErrorsWithTheirPlace) {
-  EXPECT_NE(error_of("light(type = \"area\");").find("not supported yet"), std::string::npos);
+  EXPECT_NE(error_of("light(type = \"area\");").find("\"rectangle\""), std::string::npos);
+  EXPECT_NE(error_of("light(type = \"sphere\", angle = 3);").find("has no 'angle'"), std::string::npos);
+  EXPECT_NE(error_of("light(type = \"environment\", file = \"nowhere.exr\");").find("there is no file"),
+            std::string::npos);
+  EXPECT_NE(error_of("light(type = \"sky\"); light(type = \"environment\");").find("already"), std::string::npos);
   EXPECT_NE(error_of("light(type = \"lamp\");").find("'type' must be"), std::string::npos);
   EXPECT_NE(error_of("camera(from = 3);").find("list of three"), std::string::npos);
   EXPECT_NE(error_of("camera(from = [1, 1, 1], at = [1, 1, 1]);").find("must differ"), std::string::npos);

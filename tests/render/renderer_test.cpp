@@ -26,7 +26,7 @@ struct Still {
     glass.kd = 0.1, glass.ks = 0.1, glass.kt = 0.8, glass.ior = 1.5;
     mirror.kd = 0.2, mirror.ks = 0.8;
     scene.materials = {floor, glass, mirror};
-    scene.medium_ior = {1, 1, 1.5};
+    scene.media = {{}, {}, {1.5, {}}};
     scene.background = {0.2, 0.3, 0.4};
     scene.ambient = {0.3, 0.3, 0.3};
     Light light;

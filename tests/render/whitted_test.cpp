@@ -52,8 +52,8 @@ class Whitted : public testing::Test {
     AnalyticSolid solid{shape, MaterialId{scene.materials.size()}, medium_opaque};
     scene.materials.push_back(material);
     if (material.kt > 0) {
-      solid.medium = static_cast<MediumId>(scene.medium_ior.size());
-      scene.medium_ior.push_back(material.ior);
+      solid.medium = static_cast<MediumId>(scene.media.size());
+      scene.media.push_back({material.ior, {}});
     }
     solids.push_back(solid);
   }

@@ -88,7 +88,7 @@ TEST(CompileScene, SolidsOfOneTransparentMaterialAreOneMedium) {
   EXPECT_EQ(leaves[0].medium, leaves[2].medium);
   EXPECT_NE(leaves[0].medium, leaves[1].medium);
   EXPECT_EQ(leaves[3].medium, medium_opaque);
-  EXPECT_EQ(scene.medium_ior.size(), 4u);
+  EXPECT_EQ(scene.media.size(), 4u);
 }
 
 TEST(CompileScene, APhongMaterialIsOpaqueWhateverItsTransmission) {

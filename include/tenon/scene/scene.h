@@ -17,6 +17,12 @@ namespace tenon {
 
 struct CsgTree;
 
+/// What fills transparent solids of one material, and the space around all solids.
+struct Medium {
+  double ior = 1;   ///< index of refraction
+  Rgb attenuation;  ///< of light, per unit of length: exp(-attenuation x length) of it is left (Beer's law)
+};
+
 /// A scene ready to be traced: attributes pushed to the leaves, camera and lights chosen where the file has none.
 struct Scene {
   std::shared_ptr<const CsgTree> tree;
@@ -24,10 +30,11 @@ struct Scene {
   Material default_material;        ///< where Hit::material is none
   std::vector<Light> lights;
   Camera camera;
-  Rgb background;                        ///< linear
-  Rgb ambient;                           ///< linear; Ia of the course
-  LeafId first_section_plane;            ///< this leaf and all behind it are planes of the section view; none without
-  std::vector<double> medium_ior{1, 1};  ///< index of refraction, indexed by MediumId; outside and opaque: 1
+  Rgb background;                 ///< linear
+  bool shows_environment = true;  ///< behind everything stands an environment light, when there is one
+  Rgb ambient;                    ///< linear; Ia of the course
+  LeafId first_section_plane;     ///< this leaf and all behind it are planes of the section view; none without
+  std::vector<Medium> media = std::vector<Medium>(2);  ///< indexed by MediumId; outside and opaque: nothing
 
   const Material& material(MaterialId id) const { return id ? materials[id.get()] : default_material; }
 };

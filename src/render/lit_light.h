@@ -1,0 +1,79 @@
+#pragma once
+
+#include <optional>
+
+#include "render/environment.h"
+#include "render/sampler.h"
+#include "tenon/math/color.h"
+#include "tenon/math/ray.h"
+#include "tenon/scene/light.h"
+
+namespace tenon {
+
+/// What a light sends to a point, when it is taken for a point itself.
+struct IncidentLight {
+  Vec3 to_light;     ///< from the point; its length is the distance where the light has a place
+  double t_max = 0;  ///< along to_light: where the light stands
+  Rgb light;         ///< Ij; black where the light does not reach
+};
+
+/// A direction that a light sends light from.
+struct LightSample {
+  Vec3 to_light;       ///< from the point; its length is the distance where the light has a place
+  double t_max = 0;    ///< along to_light: where the light stands
+  double cos = 1;      ///< between the direction and the normal of the light's surface
+  Rgb light;           ///< radiance over density; of a light without extent, its irradiance
+  double density = 0;  ///< per solid angle; 0 for a light without extent
+};
+
+/// A place on a light's surface that a ray meets.
+struct LightHit {
+  double t = 0;
+  double cos = 1;  ///< between the ray and the normal of the light's surface
+  Rgb radiance;
+  double density = 0;  ///< of LightSample, had it been drawn from the ray's origin
+};
+
+/// A light with everything that does not depend on the point worked out.
+class LitLight {
+ public:
+  /// @param environment  of a light that is around the scene; outlives this
+  explicit LitLight(const Light& light, const Environment* environment = nullptr);
+
+  /// The light as if it stood in one point: what the course's illumination model sums over. Nothing of a light that is
+  /// around the scene.
+  IncidentLight at(const Vec3& point) const;
+
+  /// About what a white surface at the point would show of it, shadows aside: never 0 where the light reaches.
+  double importance(const Vec3& point) const;
+
+  /// Draws a direction to the light; none where none of it can be seen.
+  std::optional<LightSample> sample(const Vec3& point, const Sample2& place) const;
+
+  /// Where a ray from the origin, of length 1, meets the light's surface; none for lights without one.
+  std::optional<LightHit> intersect(const Ray& ray) const;
+
+  bool has_surface() const { return kind_ == LightKind::rectangle || kind_ == LightKind::sphere; }
+  const Environment* environment() const { return environment_; }
+
+ private:
+  double spot_share(const Vec3& to_light) const;
+  double fading(const Vec3& to_light) const;
+  std::optional<LightSample> sample_rectangle(const Vec3& point, const Sample2& place) const;
+  std::optional<LightSample> sample_sphere(const Vec3& point, const Sample2& place) const;
+  std::optional<LightSample> sample_environment(const Sample2& place) const;
+  std::optional<LightHit> intersect_rectangle(const Ray& ray) const;
+  std::optional<LightHit> intersect_sphere(const Ray& ray) const;
+
+  LightKind kind_;
+  Vec3 position_, direction_;
+  double cos_inner_, cos_outer_;  // of the spot's full light, and of its end
+  double fade_distance_;
+  double radius_;
+  Vec3 edge_u_, edge_v_;
+  double area_;
+  Rgb emitted_;
+  const Environment* environment_;
+};
+
+}  // namespace tenon

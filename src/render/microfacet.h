@@ -1,0 +1,57 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "render/sampler.h"
+#include "tenon/math/vec3.h"
+
+namespace tenon {
+
+/// The isotropic GGX distribution of microfacets with Smith's masking and shadowing (Walter et al. 2007; Heitz 2014).
+/// Directions are local: z is the surface's normal. `wo`, where the light goes, has z > 0.
+class Microfacets {
+ public:
+  /// @param alpha  GGX's width, above 0
+  explicit Microfacets(double alpha) : alpha_(alpha) {}
+
+  /// D(m), for m.z > 0.
+  double density(const Vec3& m) const {
+    const double x = m.x / alpha_, y = m.y / alpha_;
+    const double t = x * x + y * y + m.z * m.z;
+    return 1 / (std::numbers::pi * alpha_ * alpha_ * t * t);
+  }
+
+  /// Smith's Lambda.
+  double lambda(const Vec3& v) const {
+    const double z = v.z * v.z;
+    if (z == 0) return std::numeric_limits<double>::infinity();
+    return 0.5 * (std::sqrt(1 + alpha_ * alpha_ * (v.x * v.x + v.y * v.y) / z) - 1);
+  }
+  /// The share of the microfacets that wo sees unmasked.
+  double masking(const Vec3& wo) const { return 1 / (1 + lambda(wo)); }
+  /// Masking and shadowing together, correlated by height.
+  double masking_shadowing(const Vec3& wo, const Vec3& wi) const { return 1 / (1 + lambda(wo) + lambda(wi)); }
+
+  /// A microfacet's normal, drawn among those that wo sees (Dupuy and Benyoub, "Sampling Visible GGX Normals with
+  /// Spherical Caps", 2023).
+  Vec3 sample_visible(const Vec3& wo, const Sample2& sample) const {
+    const Vec3 stretched = normalize({alpha_ * wo.x, alpha_ * wo.y, wo.z});
+    const double phi = 2 * std::numbers::pi * sample.u;
+    const double z = (1 - sample.v) * (1 + stretched.z) - stretched.z;
+    const double radius = std::sqrt(std::max(0.0, 1 - z * z));
+    const Vec3 h = Vec3{radius * std::cos(phi), radius * std::sin(phi), z} + stretched;
+    return normalize({alpha_ * h.x, alpha_ * h.y, std::max(0.0, h.z)});
+  }
+  /// The density of sample_visible(), per solid angle of m.
+  double visible_density(const Vec3& wo, const Vec3& m) const {
+    return masking(wo) * std::max(0.0, dot(wo, m)) * density(m) / wo.z;
+  }
+
+ private:
+  double alpha_;
+};
+
+}  // namespace tenon
