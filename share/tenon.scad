@@ -75,6 +75,6 @@ module material(name, model, kd, ks, kt, ka, shininess, ior, color, priority, ro
 
 module camera(from, at, up, fov, orthographic) {}
 module light(type, position, direction, angle, softness, color, intensity, fade_distance, radius, size, up,
-             turbidity, turn, file) {}
+             turbidity, turn, file, edges) {}
 module background(color) {}
 module ambient(color) {}

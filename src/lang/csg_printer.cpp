@@ -172,9 +172,7 @@ class CsgPrinter {
     if (has_place || light.kind == LightKind::rectangle || light.kind == LightKind::sphere) {
       parameter("position", light.position);
     }
-    if (!has_place && light.kind != LightKind::sphere && light.kind != LightKind::environment) {
-      parameter("direction", light.direction);
-    }
+    if (light.kind == LightKind::directional || light.kind == LightKind::sky) parameter("direction", light.direction);
     if (light.kind == LightKind::spot) {
       parameter("direction", light.direction);
       parameter("angle", light.angle);
@@ -183,9 +181,11 @@ class CsgPrinter {
     if (has_place) parameter("fade_distance", light.fade_distance);
     if (light.kind == LightKind::sphere) parameter("radius", light.radius);
     if (light.kind == LightKind::rectangle) {
-      out_ += ", size = ";
-      numbers(std::array{length(light.edge_u), length(light.edge_v)});
-      parameter("up", light.edge_v);
+      out_ += ", edges = [";
+      print(light.edge_u);
+      out_ += ", ";
+      print(light.edge_v);
+      out_ += ']';
     }
     if (light.kind == LightKind::sky) parameter("turbidity", light.turbidity);
     if (light.kind == LightKind::environment) {

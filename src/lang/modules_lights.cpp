@@ -32,11 +32,12 @@ enum LightParameter : std::size_t {
   up,
   turbidity,
   turn,
-  file
+  file,
+  edges
 };
 constexpr std::string_view light_names[] = {"type",  "position",  "direction",     "angle",  "softness",
                                             "color", "intensity", "fade_distance", "radius", "size",
-                                            "up",    "turbidity", "turn",          "file"};
+                                            "up",    "turbidity", "turn",          "file",   "edges"};
 
 constexpr std::pair<std::string_view, LightKind> light_kinds[] = {
     {"point", LightKind::point},   {"directional", LightKind::directional},
@@ -59,10 +60,10 @@ void check_parameters(const ModuleArguments& arguments, const Light& light) {
   constexpr std::string_view known[] = {"position fade_distance",  // point
                                         "direction",               // directional
                                         "position direction angle softness fade_distance",
-                                        "position direction size up",  // rectangle
-                                        "position radius",             // sphere
-                                        "turn file",                   // environment
-                                        "direction turbidity"};        // sky
+                                        "position direction size up edges",  // rectangle
+                                        "position radius",                   // sphere
+                                        "turn file",                         // environment
+                                        "direction turbidity"};              // sky
   const std::string_view list = known[static_cast<std::size_t>(light.kind)];
   for (std::size_t i = 0; i < std::size(light_names); ++i) {
     if (!arguments.given(i) || i == type || i == color || i == intensity) continue;
@@ -83,8 +84,23 @@ double positive(const ModuleArguments& arguments, LightParameter parameter, doub
   fail(arguments.at(parameter), "'" + std::string(light_names[parameter]) + "' must be greater than 0");
 }
 
-// The sides of a rectangle that faces along `direction`; the second one points as far up as it can.
-void set_sides(ModuleCall& call, const ModuleArguments& arguments, Light& light) {
+// The sides of a rectangle: as they are given, or of a size, the second one pointing as far up as it can. It faces
+// where their cross product points.
+void set_sides(const ModuleArguments& arguments, Light& light) {
+  if (arguments.given(edges)) {
+    const List* list = arguments[edges].list();
+    const auto u = list && list->items().size() == 2 ? to_vec3(list->items()[0]) : std::nullopt;
+    const auto v = u ? to_vec3(list->items()[1]) : std::nullopt;
+    if (!v)
+      fail(arguments.at(edges), "'edges' must be a list of the rectangle's two sides, like [[2, 0, 0], [0, 1, 0]]");
+    for (const LightParameter other : {direction, size, up}) {
+      if (arguments.given(other)) fail(arguments.at(other), "'edges' say all of the rectangle; leave the others out");
+    }
+    light.edge_u = *u;
+    light.edge_v = *v;
+    light.direction = cross(*u, *v);
+    return;
+  }
   double width = 1, height = 1;
   if (arguments.given(size)) {
     if (const double* side = arguments[size].number()) {
@@ -98,17 +114,24 @@ void set_sides(ModuleCall& call, const ModuleArguments& arguments, Light& light)
     if (!(width > 0 && height > 0)) fail(arguments.at(size), "'size' must be greater than 0");
   }
   const Vec3 forward = normalize(light.direction);
-  Vec3 upward = std::fabs(forward.z) < 0.999 ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
+  Vec3 upward = forward.x == 0 && forward.y == 0 ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
   if (arguments.given(up)) upward = require_vec3(arguments, up, "up");
   const Vec3 across = normalize(cross(upward, forward));
   if (across == Vec3{}) fail(arguments.at(up), "'up' must not be parallel to 'direction', nor zero");
+  light.edge_u = width * across;
+  light.edge_v = height * cross(forward, across);
+}
+
+// Where a rectangle stands after the transformations around it; a mirror image faces the other way round.
+void move_sides(ModuleCall& call, Light& light) {
   const Affine3& here = call.evaluator.world_from_here;
-  light.edge_u = here.direction(width * across);
-  light.edge_v = here.direction(height * cross(forward, across));
-  const Vec3 faces = here.direction(light.direction), normal = cross(light.edge_u, light.edge_v);
-  light.direction = dot(normal, faces) < 0 ? -normal : normal;
+  const Vec3 faces = here.direction(light.direction);
+  light.edge_u = here.direction(light.edge_u);
+  light.edge_v = here.direction(light.edge_v);
+  if (dot(cross(light.edge_u, light.edge_v), faces) < 0) std::swap(light.edge_u, light.edge_v);
+  light.direction = cross(light.edge_u, light.edge_v);
   if (light.direction == Vec3{})
-    fail(call.at(), "the transformation around it makes the light flat; scale it otherwise");
+    fail(call.at(), "the light is flat in one direction; give it two sides, and scale it otherwise");
 }
 
 std::string environment_file(const ModuleArguments& arguments) {
@@ -156,7 +179,8 @@ std::optional<Solid> light(ModuleCall& call) {
   l.file = environment_file(arguments);
   l.position = here.point(l.position);
   if (l.kind == LightKind::rectangle) {
-    set_sides(call, arguments, l);
+    set_sides(arguments, l);
+    move_sides(call, l);
   } else {
     l.direction = here.direction(l.direction);
   }
