@@ -1,7 +1,9 @@
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
+#include "animation.h"
 #include "checkpoint.h"
 #include "commands.h"
 #include "picture_arguments.h"
@@ -29,6 +31,9 @@ struct RenderCommand {
   Status run() const;
 
  private:
+  Status animate(const RenderPlan& plan, const PicturePlan& file, const RenderOptions& options, Console& console) const;
+  Status take(const RenderPlan& plan, const PicturePlan& file, const RenderOptions& options, const std::string& what,
+              Console& console) const;
   Result<RenderOptions> plan_options(const RenderPlan& plan, const PicturePlan& file) const;
   std::string dependent_arguments(const RenderOptions& options) const;
   void say_end(Console& console, const PicturePlan& file, const FilmPart& part, const Rendering& rendering) const;
@@ -102,22 +107,45 @@ Status RenderCommand::run() const {
   if (!plan) return plan.error();
   const Result<RenderOptions> options = plan_options(*plan, *file);
   if (!options) return options.error();
-
   Console console(scene.quiet);
-  const PictureRequest request{plan->view, plan->width, plan->height};
+  return work.frames == 0 ? take(*plan, *file, *options, "rendering", console)
+                          : animate(*plan, *file, *options, console);
+}
+
+Status RenderCommand::animate(const RenderPlan& plan, const PicturePlan& file, const RenderOptions& options,
+                              Console& console) const {
+  if (file.output == "-" || scene.path == "-" || !render.statistics.empty()) {
+    return usage_error("--animate goes with files for the scene and the pictures, and without --stats");
+  }
+  RenderCommand frame = *this;
+  for (int i = 0; i < work.frames && noted_interrupt() == 0; ++i) {
+    PicturePlan frame_file = file;
+    frame_file.output = frame_path(file.output, i);
+    if (work.resume && std::filesystem::exists(frame_file.output)) continue;
+    frame.scene.definitions = scene.definitions;
+    frame.scene.definitions.push_back(frame_definition(i, work.frames));
+    const std::string what = "rendering frame " + std::to_string(i + 1) + " of " + std::to_string(work.frames);
+    if (Status status = frame.take(plan, frame_file, options, what, console); !status) return status;
+  }
+  return success();
+}
+
+Status RenderCommand::take(const RenderPlan& plan, const PicturePlan& file, const RenderOptions& options,
+                           const std::string& what, Console& console) const {
+  const PictureRequest request{plan.view, plan.width, plan.height};
   const Result<TraceableScene> traceable = prepare(scene, tracing, console, &request);
   if (!traceable) return traceable.error();
 
   FilmPart part;
-  part.layers = file->layers;
+  part.layers = file.layers;
   part.transparent = render.transparent;
-  part.bits = file->format == PictureFormat::exr ? file->bits : 32;
-  part.samples = options->samples;
+  part.bits = file.format == PictureFormat::exr ? file.bits : 32;
+  part.samples = options.samples;
   part.notes = picture_notes(
-      {scene.path, dependent_arguments(*options), traceable->fingerprint, options->seed, traceable->scene.camera});
+      {scene.path, dependent_arguments(options), traceable->fingerprint, options.seed, traceable->scene.camera});
 
   // All files are begun now: better to learn that a place cannot be written before an hour of rendering than after.
-  Result<Output> picture_file = Output::open(file->output);
+  Result<Output> picture_file = Output::open(file.output);
   if (!picture_file) return picture_file.error();
   std::optional<Output> statistics_file;
   if (!render.statistics.empty()) {
@@ -131,7 +159,7 @@ Status RenderCommand::run() const {
     checkpoint.emplace(work.checkpoint, part);
     if (Status status = checkpoint->check(); !status) return status;
     if (work.resume) {
-      Result<std::optional<Film>> film = checkpoint->load(*options);
+      Result<std::optional<Film>> film = checkpoint->load(options);
       if (!film) return film.error();
       resumed = std::move(*film);
     }
@@ -148,17 +176,22 @@ Status RenderCommand::run() const {
       checkpoint->save(film, done, console);
     };
   }
-  console.progress().begin("rendering");
-  Result<Rendering> rendering = tenon::render(traceable->scene, *traceable->accelerator, *options, control);
+  console.progress().begin(what);
+  Result<Rendering> rendering = tenon::render(traceable->scene, *traceable->accelerator, options, control);
   if (!rendering) return rendering.error();
 
-  console.progress().begin("writing " + file->output);
+  // A frame that is there is whole, so that --resume need not look into it.
+  if (work.frames > 0 && rendering->end == RenderEnd::interrupted) {
+    if (checkpoint) checkpoint->save(rendering->film, rendering->done, console);
+    return success();
+  }
+  console.progress().begin("writing " + file.output);
   const bool finished = rendering->end == RenderEnd::finished;
   if (checkpoint && !finished) checkpoint->save(rendering->film, rendering->done, console);
   part.film = std::move(rendering->film);
   part.done = std::move(rendering->done);
-  if (options->crop) part = cropped(part, *options->crop);
-  const Result<std::string> bytes = encode(part, *file, options->threads, console);
+  if (options.crop) part = cropped(part, *options.crop);
+  const Result<std::string> bytes = encode(part, file, options.threads, console);
   if (!bytes) return bytes.error();
   if (Status status = picture_file->finish(*bytes); !status) return status;
   if (checkpoint && finished) checkpoint->remove();
@@ -167,7 +200,7 @@ Status RenderCommand::run() const {
     if (Status status = statistics_file->finish(json); !status) return status;
   }
   console.progress().end();
-  if (!scene.quiet) say_end(console, *file, part, *rendering);
+  if (!scene.quiet) say_end(console, file, part, *rendering);
   return success();
 }
 

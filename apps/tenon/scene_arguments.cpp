@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "commands.h"
+#include "numbers.h"
 #include "tenon/base/fingerprint.h"
 #include "tenon/base/parallel_for.h"
 #include "tenon/image/light_file.h"
@@ -36,7 +37,13 @@ Result<LoadOptions> load_options(const SceneArguments& arguments) {
     if (equals == 0 || equals == std::string::npos) {
       return usage_error("-D takes name=value, such as -D size=10, not '" + definition + "'");
     }
-    options.definitions.emplace_back(definition.substr(0, equals), definition.substr(equals + 1));
+    const std::string name = definition.substr(0, equals), value = definition.substr(equals + 1);
+    // `$t` is to be there before the file's own assignments look at it; others are put in the place of the file's.
+    if (const auto time = parse_number<double>(value); name == "$t" && time) {
+      options.time = *time;
+    } else {
+      options.definitions.emplace_back(name, value);
+    }
   }
   return options;
 }

@@ -91,8 +91,16 @@ void WorkArguments::add_to(CLI::App& command) {
       ->type_name("SECONDS")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1e9).description("over 0.01"));
-  command.add_flag("--resume", resume,
-                   "Go on from the file of --checkpoint, where there is one, to the same bytes as without a break");
+  command
+      .add_option(
+          "--animate", frames,
+          "Take so many pictures, with $t = 0, 1/N, ... up to 1 without it: x.png is x00000.png, x00001.png ...")
+      ->type_name("N")
+      ->check(CLI::Range(1, 99999).description("1 to 99999"));
+  command.add_flag(
+      "--resume", resume,
+      "Go on from the file of --checkpoint, where there is one, to the same bytes as without a break; with "
+      "--animate, leave frames alone that are there");
 }
 
 Status plan_work(const WorkArguments& arguments, RenderOptions& options) {
@@ -111,8 +119,8 @@ Status plan_work(const WorkArguments& arguments, RenderOptions& options) {
     }
     if (Status status = read_samples(arguments.samples, options); !status) return status;
   }
-  if (arguments.resume && arguments.checkpoint.empty()) {
-    return usage_error("--resume goes on from a checkpoint; name its file with --checkpoint");
+  if (arguments.resume && arguments.checkpoint.empty() && arguments.frames == 0) {
+    return usage_error("--resume goes on from a checkpoint; name its file with --checkpoint, or use --animate");
   }
   return success();
 }

@@ -10,7 +10,7 @@
 
 namespace tenon {
 
-/// How much of a picture `tenon render` is to take, for how long, and what is kept on the way; as text.
+/// How much of a picture, or how many, `tenon render` is to take, for how long, and what is kept on the way; as text.
 struct WorkArguments {
   std::uint32_t samples_per_pixel = 0;  ///< 0: not said
   std::string crop;
@@ -19,6 +19,7 @@ struct WorkArguments {
   double seconds = 0;
   std::string checkpoint;
   double checkpoint_seconds = 60;
+  int frames = 0;  ///< 0: one picture
   bool resume = false;
 
   void add_to(CLI::App& command);

@@ -31,7 +31,7 @@ void ModuleEvaluator::set_special_defaults() {
   set("$fn", Value(0.0));
   set("$fa", Value(12.0));
   set("$fs", Value(2.0));
-  set("$t", Value(0.0));
+  set("$t", Value(options_.time));
   set("$preview", Value(false));
   set("$vpr", make_list({55, 0, 25}, budget));
   set("$vpt", make_list({0, 0, 0}, budget));

@@ -73,6 +73,8 @@ TEST_F(Usage, ErrorsSayWhatIsWrongAndWriteNothing) {
       {{"render", "a.scad", "--spp", "4", "--samples", "0:2", "--noise", "0.1"}, "--crop in place of --samples"},
       {{"render", "a.scad", "--resume"}, "--checkpoint"},
       {{"render", "a.scad", "--time", "0"}, "--time"},
+      {{"render", "a.scad", "--animate", "0"}, "--animate"},
+      {{"render", "a.scad", "--animate", "2", "-o", "-"}, "--animate goes with files"},
       {{"render", "a.scad", "--layers", "Z"}, "a PNG picture has no layers"},
       {{"render", "a.scad", "-o", "x.exr", "--layers", "Q"}, "no layer 'Q'; there are: all, none, Z"},
       {{"render", "a.scad", "-o", "x.exr", "--tonemap", "filmic"}, "EXR picture keeps the light"},

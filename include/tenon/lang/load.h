@@ -22,7 +22,8 @@ inline constexpr int facets_threshold = 13;
 struct LoadOptions {
   Facets facets = Facets::automatic;
   /// `-D name=value`: assignments in the scene language that override the file's own.
-  std::vector<std::pair<std::string, std::string>> definitions;
+  std::vector<std::pair<std::string, std::string>> definitions = {};
+  double time = 0;  ///< `$t`, of an animation: from 0 up to 1
 };
 
 /// Evaluates a scene file.
