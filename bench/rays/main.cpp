@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "rays/bench_scene.h"
 #include "rays/parts.h"
 #include "tenon/accel/accelerator.h"
 #include "tenon/base/parallel_for.h"
@@ -51,7 +52,12 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 4096));
   app.add_option("--largest", options.largest_growth, "Spheres of the largest scene of `growth`")
       ->capture_default_str();
+  app.add_option("--scene", options.scenes, "Of the six scenes only these")->check(CLI::IsMember(scene_names()));
+  app.add_option("--against", options.against, "`structures`: of the structures only these, on the six scenes")
+      ->delimiter(',')
+      ->check(CLI::IsMember(accelerator_names()));
   CLI11_PARSE(app, argc, argv);
+  if (options.scenes.empty()) options.scenes = scene_names();
   for (const Part& part : parts) {
     const bool is_wanted = wanted.empty() || std::find(wanted.begin(), wanted.end(), part.name) != wanted.end();
     if (!is_wanted) continue;

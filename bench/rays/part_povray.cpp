@@ -77,7 +77,7 @@ Status run_povray(const PartOptions& options, Report& report) {
   report.note(
       "POV-Ray's CPU seconds of tracing with +WT1, shading included, parsing not; Tenon's of render(), likewise");
   std::vector<double> ratios;
-  for (const std::string& name : scene_names()) {
+  for (const std::string& name : options.scenes) {
     const Result<BenchScene> scene = read_scene(scene_path(name));
     if (!scene) return scene.error();
     const ScreenView& view = scene->camera.view();

@@ -63,12 +63,17 @@ Status compare_structures(const std::string& path, const PartOptions& options, R
     }
     report.figure(scene->name, spec + ": building it", built->seconds, "s");
     tracers.push_back(std::make_unique<TenonTracer>(spec, *built->accelerator));
+    if (structures.empty()) {
+      tracers.push_back(std::make_unique<TenonTracer>(spec + ", ray by ray", *built->accelerator, 1));
+    }
     structures.push_back(std::move(*built));
     return success();
   };
   if (Status status = add(options.accelerator); !status) return status;
   for (const std::string_view name : accelerator_names()) {
     if (name == "none" || name == own_name) continue;
+    const auto& against = options.against;
+    if (!against.empty() && std::find(against.begin(), against.end(), name) == against.end()) continue;
     if (Status status = add(std::string(name)); !status) return status;
   }
   for (const RaySet& set : make_ray_sets(*scene, *structures.front().accelerator, small_lift(*scene))) {
@@ -77,9 +82,10 @@ Status compare_structures(const std::string& path, const PartOptions& options, R
     double least = Box3::inf;
     for (const Timing& t : timings) {
       report.rate(scene->name, std::string(set.name()), t, set.rays.size(), &timings.front());
-      if (&t != &timings.front()) least = std::min(least, ratio(t, timings.front()));
+      const bool is_own = t.name.starts_with(options.accelerator);
+      if (!is_own) least = std::min(least, ratio(t, timings.front()));
     }
-    against_best[std::string(set.name())].push_back(least);
+    if (least < Box3::inf) against_best[std::string(set.name())].push_back(least);
     const std::vector<Answer> own = tracers.front()->answers();
     for (const auto& tracer : tracers) {
       const std::size_t differ = count_disagreements(own, tracer->answers(), set.kind);
@@ -94,11 +100,11 @@ Status compare_structures(const std::string& path, const PartOptions& options, R
 
 Status run_structures(const PartOptions& options, Report& report) {
   std::map<std::string, std::vector<double>> scenes, examples;
-  for (const std::string& name : scene_names()) {
+  for (const std::string& name : options.scenes) {
     report.heading(name);
     if (Status status = compare_structures(scene_path(name), options, report, scenes); !status) return status;
   }
-  for (const std::string& path : example_paths()) {
+  for (const std::string& path : options.against.empty() ? example_paths() : std::vector<std::string>{}) {
     report.heading(path);
     if (Status status = compare_structures(path, options, report, examples); !status) return status;
   }
@@ -142,7 +148,7 @@ Status run_growth(const PartOptions& options, Report& report) {
 
 Status run_cores(const PartOptions& options, Report& report) {
   std::map<std::string, std::vector<double>> ratios;
-  for (const std::string& name : scene_names()) {
+  for (const std::string& name : options.scenes) {
     const Result<BenchScene> scene = read_scene(scene_path(name));
     if (!scene) return scene.error();
     Result<BuiltStructure> built = build(options.accelerator, *scene);
@@ -165,7 +171,7 @@ Status run_cores(const PartOptions& options, Report& report) {
 
 Status run_start(const PartOptions& options, Report& report) {
   std::map<int, std::vector<double>> ratios;
-  for (const std::string& name : scene_names()) {
+  for (const std::string& name : options.scenes) {
     std::vector<double> own;
     for (int i = 0; i < rounds; ++i) {
       Status failed = success();

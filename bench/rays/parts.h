@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "rays/report.h"
 #include "tenon/base/error.h"
@@ -9,9 +10,11 @@ namespace tenon::bench {
 
 /// What the parts are told.
 struct PartOptions {
-  std::string accelerator;         ///< Tenon's contender, as `tenon --accel`
-  int threads = 1;                 ///< what "all cores" means
-  int largest_growth = 1'000'000;  ///< spheres of the largest scene of `growth`
+  std::string accelerator;           ///< Tenon's contender, as `tenon --accel`
+  int threads = 1;                   ///< what "all cores" means
+  int largest_growth = 1'000'000;    ///< spheres of the largest scene of `growth`
+  std::vector<std::string> scenes;   ///< of scenes/bench, which every contender traces
+  std::vector<std::string> against;  ///< the structures to compare with; empty: all of them, on OpenSCAD's examples too
 };
 
 /// Tenon against Embree on meshes within a quarter of a pixel, and on bare balls.

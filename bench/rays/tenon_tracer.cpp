@@ -1,5 +1,7 @@
 #include "rays/tenon_tracer.h"
 
+#include <algorithm>
+
 namespace tenon::bench {
 
 void TenonTracer::load(const RaySet& set, int threads) {
@@ -11,12 +13,15 @@ void TenonTracer::load(const RaySet& set, int threads) {
 
 void TenonTracer::trace(std::size_t begin, std::size_t end, int worker) {
   TraceContext& context = *contexts_[static_cast<std::size_t>(worker)];
-  const std::span<const RayQuery> queries(set_->rays.data() + begin, end - begin);
-  if (set_->kind == RayKind::shadow) {
-    for (std::size_t i = 0; i < queries.size(); ++i) occluded_[begin + i] = accelerator_.occluded(queries[i], context);
-    return;
+  for (; begin < end; begin += batch_) {
+    const std::size_t count = std::min(batch_, end - begin);
+    const std::span<const RayQuery> queries(set_->rays.data() + begin, count);
+    if (set_->kind == RayKind::shadow) {
+      accelerator_.occluded(queries, {occluded_.data() + begin, count}, context);
+    } else {
+      accelerator_.first_boundaries(queries, {boundaries_.data() + begin, count}, context);
+    }
   }
-  accelerator_.first_boundaries(queries, {boundaries_.data() + begin, queries.size()}, context);
 }
 
 // Normals are for the picture, which is not timed.

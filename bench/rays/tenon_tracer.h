@@ -11,7 +11,9 @@ namespace tenon::bench {
 /// Tenon by its public interface. trace() is the one place where the bench asks a structure.
 class TenonTracer final : public Tracer {
  public:
-  TenonTracer(std::string name, const Accelerator& accelerator) : Tracer(std::move(name)), accelerator_(accelerator) {}
+  /// @param batch  rays of one call
+  TenonTracer(std::string name, const Accelerator& accelerator, std::size_t batch = block)
+      : Tracer(std::move(name)), accelerator_(accelerator), batch_(batch) {}
 
   void load(const RaySet& set, int threads) override;
   void trace(std::size_t begin, std::size_t end, int worker) override;
@@ -20,6 +22,7 @@ class TenonTracer final : public Tracer {
 
  private:
   const Accelerator& accelerator_;
+  std::size_t batch_;
   const RaySet* set_ = nullptr;
   std::vector<std::unique_ptr<TraceContext>> contexts_;
   std::vector<RayBoundary> boundaries_;

@@ -29,9 +29,10 @@ void Accelerator::first_boundaries(std::span<const RayQuery> queries, std::span<
   }
 }
 
-bool Accelerator::occluded(const RayQuery& query, TraceContext& context) const {
-  return any_hit(
-      query, [](const Hit&) { return true; }, context);
+void Accelerator::occluded(std::span<const RayQuery> queries, std::span<std::uint8_t> answers,
+                           TraceContext& context) const {
+  const auto stops = [](const Hit&) { return true; };
+  for (std::size_t i = 0; i < queries.size(); ++i) answers[i] = any_hit(queries[i], stops, context);
 }
 
 std::vector<std::string_view> accelerator_names() {

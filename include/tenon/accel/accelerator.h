@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -85,8 +86,10 @@ class Accelerator {
   virtual void first_boundaries(std::span<const RayQuery> queries, std::span<RayBoundary> boundaries,
                                 TraceContext& context) const;
 
-  /// Whether there is any boundary at 0 < t < t_max: a shadow ray where nothing is transparent.
-  virtual bool occluded(const RayQuery& query, TraceContext& context) const;
+  /// Whether there is any boundary at 0 < t < t_max, 1 or 0 for each query: shadow rays where nothing is transparent.
+  /// `answers` has the length of `queries`.
+  virtual void occluded(std::span<const RayQuery> queries, std::span<std::uint8_t> answers,
+                        TraceContext& context) const;
 
   /// True as soon as `stops` returned true for a boundary at 0 < t < t_max.
   virtual bool any_hit(const RayQuery& query, StopsRay stops, TraceContext& context) const = 0;
@@ -95,6 +98,12 @@ class Accelerator {
   virtual void all_spans(const RayQuery& query, std::vector<SolidSpan>& spans, TraceContext& context) const = 0;
 
   virtual AcceleratorFigures figures() const = 0;
+
+  bool occluded(const RayQuery& query, TraceContext& context) const {
+    std::uint8_t answer = 0;
+    occluded({&query, 1}, {&answer, 1}, context);
+    return answer != 0;
+  }
 
   Hit first_hit(const RayQuery& query, TraceContext& context) const {
     Hit hit;

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "accel/cells/placed_shape.h"
+#include "accel/cells/leaf_records.h"
 
 namespace tenon::cells {
 
@@ -15,10 +15,10 @@ struct alignas(64) Cell {
   static constexpr std::size_t most_followed = 64;
 
   std::uint64_t table = 0;
-  std::array<ShapeRef, most_tabled> shapes;
+  std::array<RecordRef, most_tabled> records;
   std::array<LeafId, most_tabled> leaves;
   std::uint8_t leaf_count = 0;
-  bool general = false;   ///< some leaf is of the general kind
+  bool general = false;   ///< some leaf has no record
   bool extended = false;  ///< more than six leaves: the expression stands in CellTree::symbols
   std::uint32_t owner =
       0;  ///< Owner::value of the points of the solid here; Owner::varies: it takes the exact structure

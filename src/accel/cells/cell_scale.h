@@ -10,14 +10,19 @@ namespace tenon::cells {
 /// The lengths that `cells` needs of a scene, and how they follow from one another.
 ///
 /// *reach* R: no bounded coordinate is larger.
-/// *resolution* τ = 2^-22 R: two crossings further apart than 2τ are told apart for certain. Whoever finds the
-/// crossings without their error bounds proves that the bounds are at most τ (PlacedShape), or leaves the ray to the
-/// exact structure. *slack* 4τ = 2^-20 R: boxes are met in single precision, relative to the scene's centre.
-/// Coordinates there are at most 2R; the origin, moved to where the ray meets the scene, and the difference to a plane
-/// round by 2^-24 of 2R and 4R, and the product with the inverse direction, a distance of at most 4R, by 2^-23: below
-/// 2^-20 R together, across the plane. *growth* 16τ: cells are classified with their box grown by as much. It covers
-/// the slack of the stored box, that of its intersection, and the 2τ on either side within which other crossings
-/// matter.
+///
+/// *resolution* τ = 2^-27 R: two crossings further apart than 2τ are told apart for certain. Whoever finds the
+/// crossings without their error bounds proves that the bounds are at most τ (Certainty), or leaves the ray to the
+/// exact structure. A crossing's place is off by the scene's tolerance, 2^-42 R, and the rounding of a ray from as far
+/// as 2^6 R, about as much; by 1 / slope: so slopes down to 2^-13 are within τ.
+///
+/// *slack* 2^-20 R: boxes are met in single precision, relative to the scene's centre. Coordinates there are at most
+/// 2R; the origin, moved to where the ray meets the scene, and the difference to a plane round by 2^-24 of 2R and 4R,
+/// and the product with the inverse direction, a distance of at most 4R, by 2^-23: below 2^-20 R together, across the
+/// plane.
+///
+/// *growth* 4 slacks: cells are classified with their box grown by as much. It covers the slack of the stored box, that
+/// of its intersection, and the 8τ on either side within which other crossings matter.
 struct CellScale {
   double reach = 0;
   double resolution = 0;
@@ -30,10 +35,10 @@ struct CellScale {
     for (const Leaf& leaf : tree.leaves) {
       if (leaf.bounds.is_bounded()) s.reach = std::max(s.reach, leaf.bounds.largest_coordinate());
     }
-    s.resolution = 0x1p-22 * s.reach;
-    s.slack = 4 * s.resolution;
-    s.growth = 16 * s.resolution;
-    s.far_origin = 0x1p10 * s.reach;
+    s.resolution = 0x1p-27 * s.reach;
+    s.slack = 0x1p-20 * s.reach;
+    s.growth = 4 * s.slack;
+    s.far_origin = 0x1p6 * s.reach;
     return s;
   }
 };

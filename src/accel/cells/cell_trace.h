@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "accel/cells/cell_tree.h"
@@ -11,6 +12,13 @@
 
 namespace tenon::cells {
 
+/// What is asked of a ray.
+enum class Wanted : std::uint8_t {
+  occlusion,  ///< whether there is a boundary
+  boundary,   ///< the first, with the t, leaf and face of spans()
+  hit,        ///< the first, t being near to that of spans(), with all its faces where several coincide
+};
+
 /// What a ray met among the cells.
 struct CellAnswer {
   enum class Kind : std::uint8_t {
@@ -19,7 +27,7 @@ struct CellAnswer {
     unsure,    ///< crossings too near to each other, or to the start: the exact structure has to say
   };
 
-  double t = 0;
+  double t = 0;  ///< see Wanted
   Kind kind = Kind::nothing;
   bool leaf_entering = false;  ///< the ray enters the leaf whose face it meets
   bool before = false;         ///< whether the ray was inside the solid
@@ -104,10 +112,9 @@ inline int start_face(const RayQuery& query, LeafId leaf) {
   return -1;
 }
 
-/// Follows rays to their first boundaries with the widest instructions that the machine has: neighbours that go the
-/// same way together, the others one by one.
-void trace_first(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries,
-                 std::span<CellAnswer> answers, bool faces_wanted, CellScratch& scratch,
-                 TraversalStatistics& statistics);
+/// Follows rays with the widest instructions that the machine has: neighbours that go the same way together, the others
+/// one by one.
+void trace_rays(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries,
+                std::span<CellAnswer> answers, Wanted wanted, CellScratch& scratch, TraversalStatistics& statistics);
 
 }  // namespace tenon::cells

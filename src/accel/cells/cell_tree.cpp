@@ -13,10 +13,11 @@ CellTree CellTree::build(const CsgTree& tree, const Box3& box, const BuildQualit
   result.scale = CellScale::of(tree);
   result.box = grown(box, 4 * result.scale.growth);
   result.center = result.box.center();
+  result.records = LeafRecords::of(tree, result.scale, result.center);
   result.shapes = PlacedShapes::of(tree, result.scale);
-  const LeafRegions regions(tree, &result.shapes);
+  const LeafRegions regions(tree, &result.records);
   BuiltCells built =
-      build_cells({tree, result.scale, result.shapes, regions, quality}, result.box, result.center, threads);
+      build_cells({tree, result.scale, result.records, regions, quality}, result.box, result.center, threads);
   static_cast<CellStore&>(result) = std::move(built.store);
   result.nodes = std::move(built.nodes);
   result.depth = built.depth;
@@ -47,7 +48,8 @@ std::vector<std::pair<std::string, double>> CellTree::details() const {
 }
 
 std::size_t CellTree::memory_bytes() const {
-  return CellStore::memory_bytes() + nodes.size() * sizeof(WideNode) + shapes.memory_bytes();
+  return CellStore::memory_bytes() + nodes.size() * sizeof(WideNode) + records.memory_bytes() +
+         shapes.memory_bytes();
 }
 
 }  // namespace tenon::cells

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "accel/cells/cell_store.h"
+#include "accel/cells/leaf_records.h"
 #include "accel/cells/placed_shape.h"
 #include "accel/cells/subdivision.h"
 #include "accel/cells/wide_node.h"
@@ -19,6 +20,7 @@ struct CellTree : CellStore {
   Box3 box;  ///< of the whole solid, absolute
   CellScale scale;
   std::vector<WideNode> nodes;
+  LeafRecords records;
   PlacedShapes shapes;
   int depth = 0;
   std::uint32_t most_leaves = 0;  ///< in one cell

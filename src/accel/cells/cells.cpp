@@ -1,4 +1,5 @@
 #include <cassert>
+#include <cmath>
 #include <mutex>
 
 #include "accel/all.h"
@@ -15,6 +16,7 @@ namespace {
 
 using cells::CellAnswer;
 using cells::CellTree;
+using cells::Wanted;
 
 /// `cells`: space is cut until the Boolean expression in each cell is a word of truth values over a few primitives, so
 /// that the first change of value in the first cell is the answer.
@@ -32,7 +34,7 @@ class Cells final : public Accelerator {
   void first_hits(std::span<const RayQuery> queries, std::span<Hit> hits, TraceContext& base) const override {
     auto& context = static_cast<Context&>(base);
     context.answers.resize(queries.size());
-    trace(queries, context.answers, true, context);
+    trace(queries, context.answers, Wanted::hit, context);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const CellAnswer& answer = context.answers[i];
       if (answer.kind == CellAnswer::Kind::nothing) {
@@ -49,7 +51,7 @@ class Cells final : public Accelerator {
                         TraceContext& base) const override {
     auto& context = static_cast<Context&>(base);
     context.answers.resize(queries.size());
-    trace(queries, context.answers, false, context);
+    trace(queries, context.answers, Wanted::boundary, context);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const CellAnswer& answer = context.answers[i];
       boundaries[i] = RayBoundary{};
@@ -63,22 +65,23 @@ class Cells final : public Accelerator {
     }
   }
 
-  bool occluded(const RayQuery& query, TraceContext& base) const override {
+  void occluded(std::span<const RayQuery> queries, std::span<std::uint8_t> answers, TraceContext& base) const override {
     auto& context = static_cast<Context&>(base);
-    CellAnswer answer;
-    trace({&query, 1}, {&answer, 1}, false, context);
-    if (answer.kind != CellAnswer::Kind::unsure) return answer.kind == CellAnswer::Kind::boundary;
-    bool is_occluded = false;
-    exact(context, [&](const Accelerator& exact, TraceContext& exact_context) {
-      is_occluded = exact.occluded(query, exact_context);
-    });
-    return is_occluded;
+    context.answers.resize(queries.size());
+    trace(queries, context.answers, Wanted::occlusion, context);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      answers[i] = context.answers[i].kind == CellAnswer::Kind::boundary;
+      if (context.answers[i].kind != CellAnswer::Kind::unsure) continue;
+      exact(context, [&](const Accelerator& exact, TraceContext& exact_context) {
+        exact.occluded(queries.subspan(i, 1), answers.subspan(i, 1), exact_context);
+      });
+    }
   }
 
   bool any_hit(const RayQuery& query, StopsRay stops, TraceContext& base) const override {
     auto& context = static_cast<Context&>(base);
     CellAnswer answer;
-    trace({&query, 1}, {&answer, 1}, true, context);
+    trace({&query, 1}, {&answer, 1}, Wanted::hit, context);
     if (answer.kind == CellAnswer::Kind::nothing) return false;
     Hit first;
     bool asked = false;
@@ -120,14 +123,13 @@ class Cells final : public Accelerator {
     std::unique_ptr<TraceContext> exact;
   };
 
-  void trace(std::span<const RayQuery> queries, std::span<CellAnswer> answers, bool faces_wanted,
-             Context& context) const {
+  void trace(std::span<const RayQuery> queries, std::span<CellAnswer> answers, Wanted wanted, Context& context) const {
     for (const RayQuery& query : queries) ++context.statistics[query.kind].rays;
     if (cells_.empty()) {
       std::fill(answers.begin(), answers.end(), CellAnswer{});
       return;
     }
-    trace_first(cells_, tree_, queries, answers, faces_wanted, context.scratch, context.statistics);
+    trace_rays(cells_, tree_, queries, answers, wanted, context.scratch, context.statistics);
   }
 
   // The boundary as the classifier would have found it; false when its material is not known here.
@@ -148,9 +150,11 @@ class Cells final : public Accelerator {
     context.spans.clear();
     spans(tree_.primitives, leaf.primitive, leaf.placement, query.ray, tree_.tolerance.distance, on_face,
           context.spans);
+    const double speed = length(query.ray.direction);
     for (const Crossing& crossing : context.spans) {
-      if (crossing.t != answer.t || crossing.entering != answer.leaf_entering) continue;
-      assert(crossing.bound * length(query.ray.direction) <= cells_.scale.resolution);
+      if (crossing.entering != answer.leaf_entering) continue;
+      if (!(std::fabs(crossing.t - answer.t) * speed <= 2 * cells_.scale.resolution)) continue;
+      assert(crossing.bound * speed <= cells_.scale.resolution);
       run.t = crossing.t;
       run.bound = crossing.bound;
       run.surface = {answer.surface.leaf, crossing.face};

@@ -256,7 +256,8 @@ HWY_INLINE ChordLanes<D> CylinderChord(D d, const RayLanes<D>& ray, const Placed
   auto nearest = zero;
   if (on_face == side) {
     roots = SolveFromSurface(d, a, Dot(o, v));
-    roots.unsure = hn::Or(roots.unsure, hn::Not(slanted));
+    const auto certain = hn::Gt(quadratic, hn::Mul(hn::Set(d, shape.start), ray.square));
+    roots.unsure = hn::Or(roots.unsure, hn::Not(hn::And(slanted, certain)));
   } else {
     nearest = hn::Div(hn::Neg(Dot(o, v)), a);
     const auto p = MulAdd(nearest, v, o);
@@ -285,6 +286,30 @@ HWY_INLINE ChordLanes<D> CylinderChord(D d, const RayLanes<D>& ray, const Placed
   ShiftChord<D>(local.shift, chord);
   FinishChord(d, ray, chord);
   return chord;
+}
+
+/// The chord of any shape but a general one.
+/// @param length  of the rays' directions
+template <class D>
+HWY_INLINE ChordLanes<D> FindChord(D d, const RayLanes<D>& ray, const PlacedShapes& shapes, ShapeRef shape, int on_face,
+                                   double reach, hn::Vec<D> length) {
+  switch (shape.kind()) {
+    case ShapeKind::upright_sphere:
+      return SphereChord(d, ray, shapes.upright_spheres[shape.index()], on_face);
+    case ShapeKind::sphere:
+      return SphereChord(d, ray, shapes.spheres[shape.index()], on_face);
+    case ShapeKind::upright_box:
+      return BoxChord(d, ray, shapes.upright_boxes[shape.index()], on_face, reach, length);
+    case ShapeKind::box:
+      return BoxChord(d, ray, shapes.boxes[shape.index()], on_face, reach, length);
+    case ShapeKind::cylinder:
+      return CylinderChord(d, ray, shapes.cylinders[shape.index()], on_face, reach, length);
+    case ShapeKind::general:
+      break;
+  }
+  ChordLanes<D> unknown = WholeLine(d);
+  unknown.unsure = unknown.hit;
+  return unknown;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -42,15 +42,15 @@ bool maps_axes_to_axes(const Affine3& map) {
 
 }  // namespace
 
-LeafRegions::LeafRegions(const CsgTree& tree, const PlacedShapes* shapes)
+LeafRegions::LeafRegions(const CsgTree& tree, const LeafRecords* records)
     : tree_(tree), margin_(2 * enclosure_margin(tree)), leaves_(tree.leaves.size()) {
   for (std::size_t i = 0; i < tree.leaves.size(); ++i) {
     const Leaf& leaf = tree.leaves[i];
     RegionLeaf& region = leaves_[i];
     region.leaf = LeafId{i};
     region.bounds = leaf.bounds;
-    if (shapes != nullptr) {
-      const double price = CellCost::of_leaf(shapes->of_leaf[i].kind(), cost(tree.primitives, leaf.primitive));
+    if (records != nullptr) {
+      const double price = CellCost::of_leaf(records->of_leaf[i].kind(), cost(tree.primitives, leaf.primitive));
       region.price = static_cast<float>(price);
     }
     const Affine3& map = leaf.placement.world_from_local();

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "accel/cells/placed_shape.h"
+#include "accel/cells/leaf_records.h"
 #include "csg/csg_tree.h"
 #include "primitive/local_box.h"
 
@@ -26,8 +26,8 @@ struct RegionLeaf {
 /// without going through their frames, since most of a build's time goes into this question.
 class LeafRegions {
  public:
-  /// @param shapes  what rays are traced with, for the prices; none: every price is 1
-  explicit LeafRegions(const CsgTree& tree, const PlacedShapes* shapes = nullptr);
+  /// @param records  what rays are traced with, for the prices; none: every price is 1
+  explicit LeafRegions(const CsgTree& tree, const LeafRecords* records = nullptr);
 
   const RegionLeaf& operator[](LeafId id) const { return leaves_[id.get()]; }
 

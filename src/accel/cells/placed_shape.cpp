@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "accel/cells/certainty.h"
 #include "primitive/lists.h"
-#include "tenon/math/rounding.h"
 
 namespace tenon::cells {
 
@@ -29,56 +29,6 @@ bool is_upright(const Affine3& map) {
 double square(double x) {
   return x * x;
 }
-
-// What of a leaf's errors matters, in its frame, for rays that start within CellScale::far_origin and crossings within
-// 4 reach of the point nearest to the leaf's centre (the whole scene lies nearer).
-class Certainty {
- public:
-  Certainty(const Leaf& leaf, const CsgTree& tree, const CellScale& scale) : scale_(scale) {
-    const Placement& p = leaf.placement;
-    const Placement::RayErrors errors = p.ray_errors(scale.far_origin, tree.tolerance.distance);
-    origin_ = errors.origin;
-    direction_ = errors.direction;
-    for (int i = 0; i < 3; ++i) most_ += square(length(p.local_from_world_linear().row(i)));
-    most_ = std::sqrt(most_);
-    for (int i = 0; i < 3; ++i) least_ += square(length(p.world_from_local().row(i)));
-    least_ = 1 / std::sqrt(least_);
-    // Places in the frame are at most so far off, and round by as much again.
-    const double far = 8 * scale.reach * most_;
-    place_ = origin_ + 4 * scale.reach * direction_ + gamma(4) * Vec3{far, far, far};
-  }
-
-  /// Bound on the error of a place on the ray, per axis.
-  const Vec3& place() const { return place_; }
-  /// Norms of local_from_world, at most and at least.
-  double most_stretch() const { return most_; }
-  double least_stretch() const { return least_; }
-
-  /// A discriminant D of q, known to within `error`, has roots within error / sqrt(D); half the resolution is left for
-  /// the rounding of t. Where D is below minus this there are certainly none: D >= -|a| error has.
-  double graze(double error) const {
-    return std::max(square(2 * error / scale_.resolution), 2 * square(most_) * error);
-  }
-
-  /// A plane that is met at slope s is crossed within error / |s|.
-  double least_slope(double error) const { return 2 * error / scale_.resolution; }
-
-  /// Whether the second root of a ray that starts on a quadric of radius r (solve_deflated) is within half the
-  /// resolution, whatever its direction.
-  bool starts_are_certain(double r, double least_quadratic) const {
-    const double d = length(direction_), o = length(place_), m = most_;
-    const double a_error = 2 * m * d + d * d + gamma(12) * m * m;
-    const double b_error = (r + o) * d + m * o + gamma(12) * r * m;
-    const double bound =
-        (a_error * 2 * (r + o) / std::sqrt(least_quadratic) + 2 * b_error) / (least_quadratic - a_error);
-    return least_quadratic > 2 * a_error && bound <= 0.5 * scale_.resolution;
-  }
-
- private:
-  const CellScale& scale_;
-  Vec3 origin_, direction_, place_;
-  double most_ = 0, least_ = 0;
-};
 
 class Placer {
  public:
@@ -142,12 +92,12 @@ class Placer {
     // has, and two that its nearest point may lie off. Its component along the axis is then at least 3/4 of its length.
     const double aside = std::min(r / (8 * 4 * h), 0.5) * certainty.least_stretch();
     const double parallel = square(aside);
-    if (!(e < r / 0x1p10) || !certainty.starts_are_certain(r, parallel)) return {ShapeKind::general, 0};
+    if (!(e < r / 0x1p10)) return {ShapeKind::general, 0};
     const Placement& p = leaf.placement;
     shapes_.cylinders.push_back({array_of(p.world_center()), array_of(p.world_origin()),
                                  rows_of(p.local_from_world_linear()), cylinder.low(), cylinder.high(), r * r,
                                  certainty.graze(error), certainty.least_slope(certainty.place().z), parallel,
-                                 square(r - r / 4), square(r + r / 4)});
+                                 square(r - r / 4), square(r + r / 4), certainty.least_certain_start(r)});
     return {ShapeKind::cylinder, shapes_.cylinders.size() - 1};
   }
 

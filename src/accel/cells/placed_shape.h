@@ -70,6 +70,9 @@ struct alignas(64) PlacedCylinder {
   double parallel;
   /// ... and are inside or outside as a whole unless x² + y² lies between these.
   double surely_inside, surely_outside;
+  /// A ray that starts on the side is certain of where it meets it again if more than this, squared, over |direction|²,
+  /// goes across the axis.
+  double start;
 };
 
 /// The leaves of a scene, ready for many rays.

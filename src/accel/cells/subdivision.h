@@ -6,7 +6,7 @@
 #include "accel/cells/cell_scale.h"
 #include "accel/cells/cell_store.h"
 #include "accel/cells/leaf_regions.h"
-#include "accel/cells/placed_shape.h"
+#include "accel/cells/leaf_records.h"
 #include "csg/csg_tree.h"
 
 namespace tenon::cells {
@@ -25,7 +25,7 @@ struct BuildQuality {
 struct SubdivisionInput {
   const CsgTree& tree;
   const CellScale& scale;
-  const PlacedShapes& shapes;
+  const LeafRecords& records;
   const LeafRegions& regions;
   BuildQuality quality;
 };

@@ -168,11 +168,11 @@ ChildRef TabledSubdivider::add_cell(const Part& part) {
   std::array<std::uint32_t, most> variables{};
   for_each_bit(part.rest.leaves, [&](std::size_t i) {
     const LeafId leaf = expression_.leaves[i];
-    const ShapeRef shape = input_.shapes.of_leaf[leaf.get()];
+    const RecordRef record = input_.records.of_leaf[leaf.get()];
     variables[cell.leaf_count] = 1U << i;
     cell.leaves[cell.leaf_count] = leaf;
-    cell.shapes[cell.leaf_count] = shape;
-    cell.general |= shape.kind() == ShapeKind::general;
+    cell.records[cell.leaf_count] = record;
+    cell.general |= record.kind() == RecordKind::general;
     ++cell.leaf_count;
   });
   for (std::uint32_t state = 0; state < (1U << cell.leaf_count); ++state) {

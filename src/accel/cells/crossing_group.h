@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "accel/cells/cell.h"
+
+namespace tenon::cells {
+
+/// Crossings of a cell's leaves that certainly form one run: their bounds are at least the scene's tolerance, and they
+/// are no further apart. The rules are those of the classifier, on a word of truth values.
+struct CrossingGroup {
+  struct End {
+    double t = 0;
+    std::uint32_t place = 0;
+    bool entering = false;
+  };
+  End ends[Cell::most_tabled];
+  std::uint32_t size = 0;
+
+  /// Collects the crossings at t. A chord is longer than four resolutions, so one of its ends at most is near.
+  /// @param near      crossings further apart than this are told apart for certain
+  /// @param together  crossings no further apart than this certainly are one boundary
+  /// @return false when some may or may not belong to it
+  bool collect(std::uint32_t count, const double* enter, const double* leave, double t, double near, double together) {
+    size = 0;
+    const auto take = [&](double end, std::uint32_t place, bool entering) {
+      const double apart = std::fabs(end - t);
+      if (!(apart <= near)) return true;
+      if (!(apart <= together) || size == Cell::most_tabled) return false;
+      add({end, place, entering});
+      return true;
+    };
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (!take(enter[i], i, true) || !take(leave[i], i, false)) return false;
+    }
+    return true;
+  }
+
+  /// The state behind them all, from one in which some of them have been crossed.
+  std::uint32_t after(std::uint32_t state) const {
+    for (std::uint32_t k = 0; k < size; ++k) {
+      const std::uint32_t bit = 1U << ends[k].place;
+      state = ends[k].entering ? state | bit : state & ~bit;
+    }
+    return state;
+  }
+
+  const End& first_change(std::uint64_t table, std::uint32_t after) const {
+    std::uint32_t state = before(after);
+    const std::uint64_t value = table >> state & 1;
+    for (std::uint32_t k = 0; k < size; ++k) {
+      state ^= 1U << ends[k].place;
+      if ((table >> state & 1) != value) return ends[k];
+    }
+    return ends[0];
+  }
+
+  /// The first leaf whose bit alone changes the value right before the run or right after it (Classifier).
+  const End& shown(std::uint64_t table, std::uint32_t after) const {
+    std::uint32_t state = before(after), begin = state, end = state;
+    bool changed = false;
+    for (std::uint32_t k = 0; k < size; ++k) {
+      const std::uint32_t crossed = state ^ 1U << ends[k].place;
+      if ((table >> crossed & 1) != (table >> state & 1)) {
+        if (!changed) begin = state;
+        changed = true;
+        end = crossed;
+      }
+      state = crossed;
+    }
+    const End* shown = nullptr;
+    for (std::uint32_t k = 0; k < size; ++k) {
+      const std::uint32_t bit = 1U << ends[k].place;
+      const bool alone =
+          (table >> (begin ^ bit) & 1) != (table >> begin & 1) || (table >> (end ^ bit) & 1) != (table >> end & 1);
+      if (alone && (shown == nullptr || ends[k].place < shown->place)) shown = &ends[k];
+    }
+    return shown != nullptr ? *shown : first_change(table, after);
+  }
+
+ private:
+  // Keeps the order of the classifier.
+  void add(const End& end) {
+    std::uint32_t place = size++;
+    for (; place > 0; --place) {
+      const End& other = ends[place - 1];
+      if (other.t < end.t || (other.t == end.t && other.place < end.place)) break;
+      ends[place] = other;
+    }
+    ends[place] = end;
+  }
+
+  std::uint32_t before(std::uint32_t after) const {
+    for (std::uint32_t k = 0; k < size; ++k) after ^= 1U << ends[k].place;
+    return after;
+  }
+};
+
+}  // namespace tenon::cells

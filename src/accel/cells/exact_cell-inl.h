@@ -1,0 +1,223 @@
+// What a ray meets in one cell, by the arithmetic of spans(). Included once for each instruction set.
+
+#if defined(TENON_ACCEL_CELLS_EXACT_CELL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENON_ACCEL_CELLS_EXACT_CELL_INL_H_
+#undef TENON_ACCEL_CELLS_EXACT_CELL_INL_H_
+#else
+#define TENON_ACCEL_CELLS_EXACT_CELL_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "accel/cells/cell_trace.h"
+#include "accel/cells/chord-inl.h"
+#include "accel/cells/crossing_group.h"
+#include "primitive/dispatch.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenon::cells {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using One = hn::CappedTag<double, 1>;
+
+enum class Outcome { passed, met, unsure };
+
+/// Follows one ray through one cell after another, exactly. Here t is that of the ray as it was asked.
+class ExactCell {
+ public:
+  ExactCell(const CellTree& cells, const CsgTree& tree, CellScratch& scratch)
+      : cells_(cells), tree_(tree), scratch_(scratch) {}
+
+  /// Begins a new ray. @param square of the length of its direction
+  void Begin(const RayQuery& query, double square) {
+    query_ = &query;
+    ++scratch_.ray;
+    length_ = std::sqrt(square);
+    resolution_ = cells_.scale.resolution / length_;
+    together_ = tree_.tolerance.distance / length_;
+    const One one;
+    const Vec3 &o = query.ray.origin, &d = query.ray.direction;
+    ray_.origin = {hn::Set(one, o.x), hn::Set(one, o.y), hn::Set(one, o.z)};
+    ray_.direction = {hn::Set(one, d.x), hn::Set(one, d.y), hn::Set(one, d.z)};
+    ray_.square = hn::Set(one, square);
+    ray_.inverse = hn::Set(one, 1 / square);
+    ray_.resolution = hn::Set(one, resolution_);
+  }
+
+  /// Gives a boundary that was found by plain arithmetic the t and the face of spans(). @return whether it has them
+  bool Finish(CellAnswer& answer) {
+    const LeafId leaf = answer.surface.leaf;
+    const int on_face = start_face(*query_, leaf);
+    const ShapeRef shape = cells_.shapes.of_leaf[leaf.get()];
+    const double near = 2 * resolution_;
+    if (shape.kind() != ShapeKind::general) {
+      const One one;
+      const ChordLanes<One> chord = Chord(shape, on_face);
+      const double t = hn::GetLane(answer.leaf_entering ? chord.enter : chord.leave);
+      const bool sure = hn::AllFalse(one, chord.unsure) && !hn::AllFalse(one, chord.hit);
+      if (sure && std::fabs(t - answer.t) <= near) {
+        answer.t = t;
+        answer.surface.face =
+            static_cast<std::uint32_t>(hn::GetLane(answer.leaf_entering ? chord.enter_face : chord.leave_face));
+        return true;
+      }
+    }
+    for (const Crossing& c : FindSpans(leaf, on_face)) {
+      if (c.entering != answer.leaf_entering || !(std::fabs(c.t - answer.t) <= near)) continue;
+      answer.t = c.t;
+      answer.surface.face = c.face;
+      return true;
+    }
+    return false;
+  }
+
+  /// The first boundary in a cell whose leaves all have chords, several of which coincide there.
+  HWY_NOINLINE Outcome Meet(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
+    const double near = 2 * resolution_;
+    constexpr double never = std::numeric_limits<double>::infinity();
+    double enter[Cell::most_tabled], leave[Cell::most_tabled], next[Cell::most_tabled];
+    double enter_face[Cell::most_tabled], leave_face[Cell::most_tabled];
+    const One one;
+    std::uint32_t state = 0;
+    const std::uint32_t count = cell.leaf_count;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const ShapeRef shape = cells_.shapes.of_leaf[cell.leaves[i].get()];
+      if (shape.kind() == ShapeKind::general) return Outcome::unsure;
+      const int on_face = start_face(*query_, cell.leaves[i]);
+      const ChordLanes<One> chord = Chord(shape, on_face);
+      if (!hn::AllFalse(one, chord.unsure)) return Outcome::unsure;
+      const bool hit = !hn::AllFalse(one, chord.hit);
+      enter[i] = hit ? hn::GetLane(chord.enter) : never;
+      leave[i] = hit ? hn::GetLane(chord.leave) : never;
+      enter_face[i] = hn::GetLane(chord.enter_face);
+      leave_face[i] = hn::GetLane(chord.leave_face);
+      if (t_in <= near && !StartIsClear(enter[i], leave[i], on_face, near)) return Outcome::unsure;
+      const bool inside = enter[i] <= t_in && t_in < leave[i];
+      state |= static_cast<std::uint32_t>(inside) << i;
+      next[i] = inside ? leave[i] : enter[i] > t_in ? enter[i] : never;
+    }
+    const std::uint64_t table = cell.table;
+    const std::uint64_t before = table >> state & 1;
+    for (;;) {
+      double t = next[0];
+      for (std::uint32_t i = 1; i < count; ++i) t = std::min(t, next[i]);
+      if (!(t <= t_out)) return Outcome::passed;
+      // Crossings at the same double are one step: a change that is undone there is none.
+      for (std::uint32_t i = 0; i < count; ++i) {
+        if (next[i] != t) continue;
+        state ^= 1U << i;
+        next[i] = (state >> i & 1) != 0 ? leave[i] : never;
+      }
+      if ((table >> state & 1) == before) continue;
+      CrossingGroup group;
+      if (!group.collect(count, enter, leave, t, near, together_)) return Outcome::unsure;
+      const std::uint32_t after = group.after(state);
+      if ((table >> after & 1) == before) {
+        // The faces that coincide cancel.
+        for (std::uint32_t k = 0; k < group.size; ++k) {
+          const std::uint32_t i = group.ends[k].place;
+          next[i] = group.ends[k].entering ? leave[i] : never;
+        }
+        state = after;
+        continue;
+      }
+      const CrossingGroup::End shown = group.shown(table, after);
+      answer.t = group.first_change(table, after).t;
+      answer.leaf_entering = shown.entering;
+      answer.before = before != 0;
+      answer.surface = {cell.leaves[shown.place],
+                        static_cast<std::uint32_t>(shown.entering ? enter_face[shown.place] : leave_face[shown.place])};
+      return Outcome::met;
+    }
+  }
+
+  /// Has the classifier follow the ray through the cell, with the bounds of all crossings.
+  ///
+  /// The cell's expression is right within 8 resolutions around the stretch (CellScale). A run that begins in it takes
+  /// crossings at most two away, so none that lies further off has a part in it, as long as the bounds are no larger
+  /// than the resolution.
+  HWY_NOINLINE Outcome Resolve(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
+    if (cell.extended && cells_.extended[cell.table].leaf_count > Cell::most_followed) return Outcome::unsure;
+    if (!scratch_.classifier) scratch_.classifier.emplace(CellState{}, CellCrossings{}, cells_.most_leaves);
+    CellClassifier& classifier = *scratch_.classifier;
+    const std::span<const LeafId> leaves = cells_.leaves_of(cell);
+    auto& lists = classifier.source().of_leaf;
+    if (lists.size() < leaves.size()) lists.resize(leaves.size());
+    const double near = 8 * resolution_;
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      const Spans& known = FindSpans(leaves[i], start_face(*query_, leaves[i]));
+      for (const Crossing& c : known) {
+        const bool matters = c.t + c.bound >= t_in - near && c.t - c.bound <= t_out + near;
+        if (c.surface || (matters && !(c.bound <= resolution_))) return Outcome::unsure;
+      }
+      lists[i] = known;
+    }
+    classifier.state().enter(cell, cells_.symbols_of(cell));
+    classifier.start();
+    for (std::size_t i = 0; i < leaves.size(); ++i) classifier.reveal(LeafId{i});
+    while (std::optional<Run> run = classifier.settle(std::numeric_limits<double>::infinity())) {
+      if (run->t > t_out) break;
+      if (!(run->t > t_in)) continue;
+      answer.t = run->t;
+      answer.leaf_entering = run->leaf_entering;
+      answer.before = run->before != medium_outside;
+      run->surface.leaf = leaves[run->surface.leaf.get()];
+      InlineVector<LeafFace, 4> faces;
+      for (std::size_t i = 0; i < run->faces.size(); ++i) {
+        faces.push_back({leaves[run->faces[i].leaf.get()], run->faces[i].face});
+      }
+      run->faces = faces;
+      answer.surface = run->surface;
+      answer.run = static_cast<std::uint32_t>(scratch_.runs.size());
+      scratch_.runs.push_back(*run);
+      return Outcome::met;
+    }
+    return Outcome::passed;
+  }
+
+  /// Leaves whose spans() were asked since the last call.
+  std::uint64_t TakeTests() { return std::exchange(tests_, 0); }
+
+ private:
+  ChordLanes<One> Chord(ShapeRef shape, int on_face) const {
+    const One one;
+    return FindChord(one, ray_, cells_.shapes, shape, on_face, cells_.scale.reach, hn::Set(one, length_));
+  }
+
+  const Spans& FindSpans(LeafId leaf, int on_face) {
+    auto& known = scratch_.mailbox[leaf.get() % CellScratch::known];
+    if (known.ray == scratch_.ray && known.leaf == leaf) return known.spans;
+    ++tests_;
+    known.ray = scratch_.ray;
+    known.leaf = leaf;
+    known.spans.clear();
+    const Leaf& placed = tree_[leaf];
+    spans(tree_.primitives, placed.primitive, placed.placement, query_->ray, tree_.tolerance.distance, on_face,
+          known.spans);
+    return known.spans;
+  }
+
+  // The start: of a leaf nothing but the face that the ray starts on may lie there.
+  static bool StartIsClear(double enter, double leave, int on_face, double near) {
+    const bool enters_here = std::fabs(enter) <= near, leaves_here = std::fabs(leave) <= near;
+    if (on_face < 0) return !enters_here && !leaves_here;
+    return enters_here != leaves_here && (enters_here ? enter : leave) == 0;
+  }
+
+  const CellTree& cells_;
+  const CsgTree& tree_;
+  CellScratch& scratch_;
+  const RayQuery* query_ = nullptr;
+  double length_ = 1;
+  double resolution_ = 0;
+  double together_ = 0;
+  RayLanes<One> ray_{};
+  std::uint64_t tests_ = 0;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tenon::cells
+HWY_AFTER_NAMESPACE();
+
+#endif

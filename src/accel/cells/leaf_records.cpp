@@ -1,0 +1,309 @@
+#include "accel/cells/leaf_records.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "accel/cells/certainty.h"
+#include "primitive/lists.h"
+
+namespace tenon::cells {
+
+namespace {
+
+double square(double x) {
+  return x * x;
+}
+
+// A solid of revolution in its own frame: x² + y² <= alpha + beta z + gamma z² between two caps.
+struct Profile {
+  double low, high;
+  double alpha, beta, gamma;
+  double greatest_radius;
+
+  // The same with z measured from between the caps.
+  Profile around_middle() const {
+    const double m = 0.5 * (low + high), half = 0.5 * (high - low);
+    return {-half, half, alpha + m * (beta + m * gamma), beta + 2 * m * gamma, gamma, greatest_radius};
+  }
+  // How fast the square of the radius changes between the caps, at most.
+  double steepness() const { return std::max(std::fabs(beta + 2 * gamma * low), std::fabs(beta + 2 * gamma * high)); }
+};
+
+Profile profile_of(const Cylinder& c) {
+  return {c.low(), c.high(), c.r * c.r, 0, 0, c.r};
+}
+Profile profile_of(const Cone& c) {
+  const double low = c.center ? -0.5 * c.h : 0, slope = (c.r2 - c.r1) / c.h, offset = c.r1 - slope * low;
+  return {low, low + c.h, offset * offset, 2 * offset * slope, slope * slope, std::max(c.r1, c.r2)};
+}
+Profile profile_of(const Hyperboloid& p) {
+  const double waist = p.waist * p.waist;
+  return {-0.5 * p.h, 0.5 * p.h, waist, 0, (p.r * p.r - waist) / square(0.5 * p.h), p.r};
+}
+Profile profile_of(const Paraboloid& p) {
+  return {0, p.h, 0, p.r * p.r / p.h, 0, p.r};
+}
+
+bool sends_axes_to_axes(const Affine3& map) {
+  return map.row(0).y == 0 && map.row(0).z == 0 && map.row(1).x == 0 && map.row(1).z == 0 && map.row(2).x == 0 &&
+         map.row(2).y == 0;
+}
+
+// The scale of a map that keeps angles, as well as doubles can tell.
+std::optional<double> similarity_scale(const Affine3& map) {
+  const double scale = length(map.row(0)), slip = gamma(16) * square(scale);
+  for (int i = 0; i < 3; ++i) {
+    const double expected[3] = {i == 0 ? square(scale) : 0, i == 1 ? square(scale) : 0, i == 2 ? square(scale) : 0};
+    for (int j = 0; j < 3; ++j) {
+      if (std::fabs(dot(map.row(i), map.row(j)) - expected[j]) > slip) return std::nullopt;
+    }
+  }
+  return scale;
+}
+
+// The scale across z of a map that keeps the z axis and angles across it.
+std::optional<double> scale_around_z(const Affine3& map) {
+  const Vec3 x = map.row(0), y = map.row(1), z = map.row(2);
+  if (x.z != 0 || y.z != 0 || z.x != 0 || z.y != 0) return std::nullopt;
+  const double scale = length(x), slip = gamma(16) * square(scale);
+  if (std::fabs(dot(x, y)) > slip || std::fabs(dot(y, y) - square(scale)) > slip) return std::nullopt;
+  return scale;
+}
+
+class Recorder {
+ public:
+  Recorder(const CsgTree& tree, const CellScale& scale, const Vec3& center, LeafRecords& records)
+      : tree_(tree), scale_(scale), center_(center), records_(records) {}
+
+  RecordRef record(const Leaf& leaf) {
+    return visit(tree_.primitives.lists(), leaf.primitive, [&](const auto& primitive) { return add(leaf, primitive); });
+  }
+
+ private:
+  // A plane that is met at a slope below the least is left to the exact structure when it might be met in the scene.
+  // Larger than this, too many rays would be.
+  static constexpr double most_slope = 0x1p-9;
+
+  template <class P>
+  RecordRef add(const Leaf&, const P&) {
+    return {RecordKind::general, 0};
+  }
+
+  RecordRef add(const Leaf& leaf, const Sphere& sphere) {
+    const Certainty certainty(leaf, tree_, scale_);
+    const double e = length(certainty.place());
+    const double error = e * (2 * sphere.r + e) + gamma(12) * sphere.r * sphere.r;
+    if (!(e < sphere.r / 16) || !certainty.starts_are_certain(sphere.r, square(certainty.least_stretch())))
+      return {RecordKind::general, 0};
+    const Placement& p = leaf.placement;
+    const Affine3& map = p.local_from_world_linear();
+    const double graze = certainty.graze(error), radius_square = square(sphere.r);
+    if (const std::optional<double> scale = similarity_scale(map)) {
+      const double world_square = radius_square / square(*scale);
+      std::vector<double> values(BallRecord::size);
+      put(values, BallRecord::center, p.world_origin() - center_);
+      values[BallRecord::square] = world_square;
+      values[BallRecord::graze] = least_half_chord(graze / square(square(*scale)), world_square);
+      return append(RecordKind::ball, values);
+    }
+    // An ellipsoid: a solid of revolution whose caps touch it at its poles would be grazed there, so they stand off.
+    const double r = sphere.r;
+    return add_frustum(leaf, certainty, {-2 * r, 2 * r, r * r, 0, -1, r}, graze);
+  }
+
+  // Half a chord, squared, that a ray has to have: it does not graze, its ends are further apart than four resolutions,
+  // and what the arithmetic here rounds (2^-48 of the reach, by 1 / slope) is far below the resolution.
+  double least_half_chord(double graze, double radius_square) const {
+    return std::max({graze, square(4 * scale_.resolution), 0x1p-40 * radius_square});
+  }
+
+  RecordRef add(const Leaf& leaf, const Box& box) {
+    const Certainty certainty(leaf, tree_, scale_);
+    const Placement& p = leaf.placement;
+    const Affine3& map = p.local_from_world_linear();
+    Vec3 least;
+    for (int i = 0; i < 3; ++i) least[i] = certainty.least_slope(certainty.place()[i]);
+    if (sends_axes_to_axes(map)) {
+      Vec3 a, b;
+      for (int i = 0; i < 3; ++i) {
+        const double scale = map.row(i)[i];
+        a[i] = p.world_origin()[i] + box.lower()[i] / scale;
+        b[i] = p.world_origin()[i] + box.upper()[i] / scale;
+        if (!note_slope(least[i] / std::fabs(scale))) return {RecordKind::general, 0};
+      }
+      std::vector<double> values(AlignedBoxRecord::size);
+      put(values, AlignedBoxRecord::low, min(a, b) - center_);
+      put(values, AlignedBoxRecord::high, max(a, b) - center_);
+      return append(RecordKind::aligned_box, values);
+    }
+    std::vector<double> values(BoxRecord::size);
+    const Vec3 middle = 0.5 * (box.lower() + box.upper());
+    put(values, BoxRecord::center, p.world_from_local().point(middle) - center_);
+    for (int i = 0; i < 3; ++i) {
+      const double unit = 2 / box.size[i];
+      if (!(least[i] <= most_slope * length(map.row(i)))) return {RecordKind::general, 0};
+      put(values, BoxRecord::map + static_cast<std::size_t>(3 * i), unit * map.row(i));
+      values[BoxRecord::least + static_cast<std::size_t>(i)] = unit * least[i];
+    }
+    return append(RecordKind::box, values);
+  }
+
+  RecordRef add(const Leaf& leaf, const Cylinder& cylinder) {
+    const Certainty certainty(leaf, tree_, scale_);
+    const double r = cylinder.r, e = std::hypot(certainty.place().x, certainty.place().y);
+    if (!(e < r / 0x1p10)) return {RecordKind::general, 0};
+    return add_revolved(leaf, certainty, profile_of(cylinder), certainty.graze(e * (2 * r + e) + gamma(12) * r * r));
+  }
+  RecordRef add(const Leaf& leaf, const Cone& cone) { return add_revolved_quadric(leaf, profile_of(cone)); }
+  RecordRef add(const Leaf& leaf, const Hyperboloid& p) { return add_revolved_quadric(leaf, profile_of(p)); }
+  RecordRef add(const Leaf& leaf, const Paraboloid& p) { return add_revolved_quadric(leaf, profile_of(p)); }
+
+  // A line this steep moves aside by at most r / 8 along three heights: along one that its part between the caps has,
+  // and two that its nearest point may lie off. Its component along the axis is then at least 3/4 of its length.
+  static double parallel_share(double r, double h, const Certainty& certainty) {
+    return square(std::min(r / (8 * 4 * h), 0.5) * certainty.least_stretch());
+  }
+
+  // The bound of RevolvedQuadric::error_at over its window: there no square exceeds (2.2 R)² and so no sum of the terms
+  // 16 R²; a place that is off by e moves them by (2 * 2.2 R + e) e across, and by twice the steepness along the axis.
+  RecordRef add_revolved_quadric(const Leaf& leaf, const Profile& profile) {
+    const Certainty certainty(leaf, tree_, scale_);
+    const double R = profile.greatest_radius, e = std::hypot(certainty.place().x, certainty.place().y);
+    const double along = 2 * profile.steepness() * certainty.place().z + gamma(5) * 8 * R * R;
+    const double error = (4.5 * R + e) * e + along + gamma(10) * 16 * R * R;
+    if (!(e < R / 0x1p10) || !(along < R * R / 0x1p10)) return {RecordKind::general, 0};
+    return add_revolved(leaf, certainty, profile, (1 + profile.gamma) * certainty.graze(error));
+  }
+
+  RecordRef add_revolved(const Leaf& leaf, const Certainty& certainty, const Profile& profile, double graze) {
+    const Placement& p = leaf.placement;
+    const Affine3& map = p.local_from_world_linear();
+    const std::optional<double> across = scale_around_z(map);
+    if (!across) return add_frustum(leaf, certainty, profile, graze);
+    const double along = map.row(2).z, s2 = square(*across);
+    if (!note_slope(certainty.least_slope(certainty.place().z) / std::fabs(along))) return {RecordKind::general, 0};
+    const Profile middle = profile.around_middle();
+    const double half = middle.high / std::fabs(along);
+    std::vector<double> values(UprightRecord::size);
+    put(values, UprightRecord::center, middle_of(p, profile) - center_);
+    put_profile(values, UprightRecord::profile,
+                {-half, half, middle.alpha / s2, middle.beta * along / s2, middle.gamma * along * along / s2, 0},
+                graze / square(s2), parallel_of(profile, certainty) / s2, start_of(profile, certainty) / s2,
+                square(profile.greatest_radius) / s2);
+    return append(RecordKind::upright, values);
+  }
+
+  RecordRef add_frustum(const Leaf& leaf, const Certainty& certainty, const Profile& profile, double graze) {
+    const Placement& p = leaf.placement;
+    const Affine3& map = p.local_from_world_linear();
+    const double least = certainty.least_slope(certainty.place().z);
+    if (!(least <= most_slope * length(map.row(2)))) return {RecordKind::general, 0};
+    std::vector<double> values(FrustumRecord::size);
+    for (int i = 0; i < 3; ++i) put(values, FrustumRecord::map + static_cast<std::size_t>(3 * i), map.row(i));
+    put(values, FrustumRecord::center, middle_of(p, profile) - center_);
+    values[FrustumRecord::least] = least;
+    put_profile(values, FrustumRecord::profile, profile.around_middle(), graze, parallel_of(profile, certainty),
+                start_of(profile, certainty), square(profile.greatest_radius));
+    return append(RecordKind::frustum, values);
+  }
+
+  static Vec3 middle_of(const Placement& p, const Profile& profile) {
+    return p.world_from_local().point({0, 0, 0.5 * (profile.low + profile.high)});
+  }
+
+  // Only along a cylinder a line may run beside the side for as long as it likes.
+  static double parallel_of(const Profile& profile, const Certainty& certainty) {
+    const bool is_cylinder = profile.beta == 0 && profile.gamma == 0;
+    return is_cylinder ? parallel_share(profile.greatest_radius, profile.high - profile.low, certainty) : 0;
+  }
+
+  // Of the solids whose radius changes along the axis only the ellipsoid is known to be met again steeply enough.
+  static double start_of(const Profile& profile, const Certainty& certainty) {
+    const bool is_cylinder = profile.beta == 0 && profile.gamma == 0, is_ellipsoid = profile.gamma < 0;
+    if (is_ellipsoid) return 0;
+    return is_cylinder ? certainty.least_certain_start(profile.greatest_radius)
+                       : std::numeric_limits<double>::infinity();
+  }
+
+  static void put_profile(std::vector<double>& values, std::size_t at, const Profile& p, double graze, double parallel,
+                          double start, double radius_square) {
+    values[at + ProfileRecord::low] = p.low;
+    values[at + ProfileRecord::high] = p.high;
+    values[at + ProfileRecord::alpha] = p.alpha;
+    values[at + ProfileRecord::beta] = p.beta;
+    values[at + ProfileRecord::gamma] = p.gamma;
+    values[at + ProfileRecord::graze] = graze;
+    values[at + ProfileRecord::parallel] = parallel;
+    values[at + ProfileRecord::start] = start;
+    values[at + ProfileRecord::inside] = square(0.75) * radius_square;
+    values[at + ProfileRecord::outside] = square(1.25) * radius_square;
+  }
+
+  RecordRef add(const Leaf& leaf, const ConvexPolyhedron& solid) {
+    const Certainty certainty(leaf, tree_, scale_);
+    const Placement& p = leaf.placement;
+    std::vector<double> values{static_cast<double>(solid.planes.size()), 0};
+    for (const Plane& plane : solid.planes) {
+      const Vec3 n = p.local_from_world_linear().transposed_direction(plane.normal);
+      const double scale = length(n);
+      const double d = plane.d + dot(n, p.world_origin() - center_);
+      for (const double v : {n.x / scale, n.y / scale, n.z / scale, d / scale}) values.push_back(v);
+      const double error = dot(abs(plane.normal), certainty.place()) + gamma(8) * std::fabs(plane.d);
+      values[ConvexRecord::least] = std::max(values[ConvexRecord::least], certainty.least_slope(error) / scale);
+    }
+    if (!(values[ConvexRecord::least] <= most_slope)) return {RecordKind::general, 0};
+    return append(RecordKind::convex, values);
+  }
+
+  static void put(std::vector<double>& values, std::size_t at, const Vec3& v) {
+    for (int i = 0; i < 3; ++i) values[at + static_cast<std::size_t>(i)] = v[i];
+  }
+
+  // The least slope of leaves along the axes is one for all. @return whether it is small enough
+  bool note_slope(double least) {
+    if (!(least <= most_slope)) return false;
+    records_.least_slope = std::max(records_.least_slope, least);
+    return true;
+  }
+
+  RecordRef append(RecordKind kind, const std::vector<double>& values) {
+    const RecordRef ref(kind, records_.lines.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (i % 8 == 0) records_.lines.emplace_back();
+      records_.lines.back().values[i % 8] = values[i];
+    }
+    return ref;
+  }
+
+  const CsgTree& tree_;
+  const CellScale& scale_;
+  const Vec3& center_;
+  LeafRecords& records_;
+};
+
+}  // namespace
+
+bool LeafRecords::start_is_certain(RecordRef ref, const Vec3& direction) const {
+  const double* r = values(ref);
+  if (ref.kind() == RecordKind::upright) {
+    const double start = r[UprightRecord::profile + ProfileRecord::start];
+    return square(direction.x) + square(direction.y) > start * dot(direction, direction);
+  }
+  if (ref.kind() == RecordKind::frustum) {
+    const double* row = r + FrustumRecord::map;
+    const double x = dot(Vec3{row[0], row[1], row[2]}, direction), y = dot(Vec3{row[3], row[4], row[5]}, direction);
+    return square(x) + square(y) > r[FrustumRecord::profile + ProfileRecord::start] * dot(direction, direction);
+  }
+  return true;
+}
+
+LeafRecords LeafRecords::of(const CsgTree& tree, const CellScale& scale, const Vec3& center) {
+  LeafRecords records;
+  records.of_leaf.reserve(tree.leaves.size());
+  Recorder recorder(tree, scale, center, records);
+  for (const Leaf& leaf : tree.leaves) records.of_leaf.push_back(recorder.record(leaf));
+  return records;
+}
+
+}  // namespace tenon::cells

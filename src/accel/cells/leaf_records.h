@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "accel/cells/cell_scale.h"
+#include "csg/csg_tree.h"
+
+namespace tenon::cells {
+
+/// The kinds of leaf that rays are followed through by plain arithmetic. A ray that meets a cell with a `general` leaf
+/// is resolved there by the classifier.
+enum class RecordKind : std::uint8_t { general, ball, aligned_box, box, upright, frustum, convex };
+
+/// Where a leaf's record stands, and of what kind it is.
+struct RecordRef {
+  std::uint32_t bits = 0;
+
+  RecordRef() = default;
+  RecordRef(RecordKind kind, std::size_t index)
+      : bits(static_cast<std::uint32_t>(kind) << 28 | static_cast<std::uint32_t>(index)) {}
+  RecordKind kind() const { return static_cast<RecordKind>(bits >> 28); }
+  std::uint32_t index() const { return bits & 0xfffffff; }  ///< into LeafRecords::lines
+};
+
+/// A ball: the centre, the square of its radius, and the square of half a chord below which a ray grazes it.
+struct BallRecord {
+  static constexpr std::size_t center = 0, square = 3, graze = 4, size = 5;
+};
+
+/// A box along the axes of the world: its ends.
+struct AlignedBoxRecord {
+  static constexpr std::size_t low = 0, high = 3, size = 6;
+};
+
+/// A box in a frame of its own, where it reaches from -1 to 1. A ray that is flatter to a pair of faces than `least`,
+/// against its length in the world, is nearly parallel to them.
+struct BoxRecord {
+  static constexpr std::size_t map = 0, center = 9, least = 12, size = 15;
+};
+
+/// x² + y² <= alpha + beta z + gamma z² for low <= z <= high, around its own middle. `graze` is the discriminant over
+/// |direction|² below which a ray grazes the side. One whose share across the axis, squared, is below `parallel` is
+/// inside or outside as a whole, unless x² + y² lies between `inside` and `outside`. A ray that starts on the side is
+/// certain of where it meets it again if that share exceeds `start`.
+struct ProfileRecord {
+  static constexpr std::size_t low = 0, high = 1, alpha = 2, beta = 3, gamma = 4, graze = 5, parallel = 6, start = 7,
+                               inside = 8, outside = 9, size = 10;
+};
+
+/// A solid of revolution whose axis is the world's z: its middle, and the profile in the world's lengths.
+struct UprightRecord {
+  static constexpr std::size_t center = 0, profile = 3, size = profile + ProfileRecord::size;
+};
+
+/// The same in a frame of its own.
+struct FrustumRecord {
+  static constexpr std::size_t map = 0, center = 9, least = 12, profile = 13, size = profile + ProfileRecord::size;
+};
+
+/// Planes n·p <= d, the normals of length 1.
+struct ConvexRecord {
+  static constexpr std::size_t count = 0, least = 1, planes = 2, plane_size = 4;
+};
+
+/// What following a ray has to know of the leaves: numbers by kind, relative to the tree's centre, line by line of the
+/// cache.
+///
+/// With a record, a chord is found so that it differs from that of spans() by far less than CellScale::resolution, and
+/// the bounds of spans() are at most the resolution, unless it is said to be unsure.
+struct LeafRecords {
+  struct alignas(64) Line {
+    std::array<double, 8> values{};
+  };
+
+  std::vector<RecordRef> of_leaf;  ///< by LeafId
+  std::vector<Line> lines;
+  /// A ray that is flatter than this to an axis of the world is nearly parallel to the faces across it.
+  double least_slope = 0;
+
+  const double* values(RecordRef ref) const { return lines[ref.index()].values.data(); }
+  /// Whether a ray that starts on the leaf's face 0 is certain of where it meets that face again.
+  bool start_is_certain(RecordRef ref, const Vec3& direction) const;
+
+  std::size_t memory_bytes() const { return of_leaf.size() * sizeof(RecordRef) + lines.size() * sizeof(Line); }
+
+  static LeafRecords of(const CsgTree& tree, const CellScale& scale, const Vec3& center);
+};
+
+}  // namespace tenon::cells

@@ -1,0 +1,327 @@
+// One ray at a time through the cells. Included once for each instruction set.
+
+#if defined(TENON_ACCEL_CELLS_SINGLE_TRACER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENON_ACCEL_CELLS_SINGLE_TRACER_INL_H_
+#undef TENON_ACCEL_CELLS_SINGLE_TRACER_INL_H_
+#else
+#define TENON_ACCEL_CELLS_SINGLE_TRACER_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+
+#include "accel/cells/exact_cell-inl.h"
+#include "accel/cells/record_chord-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenon::cells {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// A node has at most eight children in place of itself, and no tree is deeper.
+inline constexpr std::size_t most_depth = 64;
+inline constexpr std::size_t most_pending = most_depth * (node_width - 1) + 1;
+
+/// Whether single precision and the records can follow a ray; false for what is not a number, too.
+inline bool IsSound(const CellTree& cells, const Vec3& origin, double square) {
+  return max_component(abs(origin)) <= cells.scale.far_origin && square >= 0x1p-200 && square <= 0x1p200;
+}
+
+/// Follows rays ray by ray.
+class SingleTracer {
+ public:
+  SingleTracer(const CellTree& cells, const CsgTree& tree, CellScratch& scratch, Wanted wanted)
+      : cells_(cells), exact_(cells, tree, scratch), wanted_(wanted), tolerance_(tree.tolerance.distance) {}
+
+  Wanted wanted() const { return wanted_; }
+
+  CellAnswer Trace(const RayQuery& query, TraversalCounters& counters) {
+    query_ = &query;
+    CellAnswer answer;
+    const Vec3 &o = query.ray.origin, &d = query.ray.direction;
+    const double square = dot(d, d);
+    if (!IsSound(cells_, o, square)) {
+      answer.kind = CellAnswer::Kind::unsure;
+      return answer;
+    }
+    if (!Begin(o, d, square)) return answer;
+    return Walk(counters);
+  }
+
+  /// What a boundary amounts to that plain arithmetic found: its t, its leaf and whether the ray enters that are known.
+  /// The ray is the one that was begun last.
+  void Finish(CellAnswer& answer) {
+    answer.kind = CellAnswer::Kind::boundary;
+    const bool at_end = std::fabs(answer.t - query_->t_max) <= 2 * near_;
+    if (wanted_ == Wanted::boundary || (wanted_ == Wanted::occlusion && at_end)) {
+      NeedExact();
+      if (!exact_.Finish(answer)) {
+        answer.kind = CellAnswer::Kind::unsure;
+        return;
+      }
+    } else if (at_end) {
+      answer.kind = CellAnswer::Kind::unsure;
+      return;
+    }
+    if (!(answer.t < query_->t_max)) answer.kind = CellAnswer::Kind::nothing;
+  }
+
+  /// Begins a ray that is not traced here, for Finish() and FinishGroup().
+  void BeginKnown(const RayQuery& query) {
+    query_ = &query;
+    square_ = dot(query.ray.direction, query.ray.direction);
+    near_ = 2 * cells_.scale.resolution / std::sqrt(square_);
+    exact_begun_ = false;
+  }
+
+  /// The same where several faces are known to coincide.
+  void FinishGroup(const Cell& cell, CellAnswer& answer) {
+    answer.kind = CellAnswer::Kind::boundary;
+    if (wanted_ == Wanted::occlusion && answer.t + 2 * near_ < query_->t_max) return;
+    NeedExact();
+    const double before = std::max(answer.t - 2 * near_, 0.0), behind = answer.t + 2 * near_;
+    if (Ask(cell, before, behind, answer) != Outcome::met) {
+      answer.kind = CellAnswer::Kind::unsure;
+    } else if (!(answer.t < query_->t_max)) {
+      answer.kind = CellAnswer::Kind::nothing;
+    }
+  }
+
+ private:
+  bool Begin(const Vec3& o, const Vec3& d, double square) {
+    // Where the line is in the scene's box.
+    double near = 0, far = query_->t_max;
+    Vec3 slowness;
+    bool flat = false;
+    const double length = std::sqrt(square), least = cells_.records.least_slope * length;
+    for (int axis = 0; axis < 3; ++axis) {
+      constexpr double most = 0x1p100;
+      const double inverse = std::clamp(1 / d[axis], -most, most);
+      slowness[axis] = inverse;
+      flat |= std::fabs(d[axis]) <= least;
+      const double a = (cells_.box.lower[axis] - o[axis]) * inverse, b = (cells_.box.upper[axis] - o[axis]) * inverse;
+      near = std::max(near, std::min(a, b));
+      far = std::min(far, std::max(a, b));
+      inverse_[axis] = static_cast<float>(inverse);
+      backward_[axis] = inverse < 0;
+    }
+    if (!(near <= far)) return false;
+    start_ = near;
+    // Rounded up; the slack of the boxes covers half an ulp, not what lies behind t_max.
+    t_end_ = static_cast<float>((far - near) * (1 + 0x1p-20));
+    const Vec3 from = o - cells_.center + near * d;
+    for (int axis = 0; axis < 3; ++axis) origin_[axis] = static_cast<float>(from[axis]);
+    near_ = 2 * cells_.scale.resolution / length;
+    together_ = tolerance_ / length;
+    const One one;
+    ray_.origin = {hn::Set(one, from.x), hn::Set(one, from.y), hn::Set(one, from.z)};
+    ray_.direction = {hn::Set(one, d.x), hn::Set(one, d.y), hn::Set(one, d.z)};
+    ray_.slowness = {hn::Set(one, slowness.x), hn::Set(one, slowness.y), hn::Set(one, slowness.z)};
+    ray_.inverse_square = hn::Set(one, 1 / square);
+    ray_.length = hn::Set(one, length);
+    ray_.near = hn::Set(one, near_);
+    ray_.flat = flat;
+    exact_begun_ = false;
+    square_ = square;
+    return true;
+  }
+
+  struct Visit {
+    std::uint32_t child;
+    float t_in, t_out;
+  };
+
+  // Pushes the children that the ray meets, the nearest last.
+  HWY_INLINE void Open(const WideNode& node, Visit*& top) {
+    const hn::CappedTag<float, node_width> wide;
+    HWY_ALIGN float t_in[node_width];
+    HWY_ALIGN float t_out[node_width];
+    std::uint32_t met = 0;
+    for (std::size_t lane = 0; lane < node_width; lane += hn::Lanes(wide)) {
+      auto near = hn::Zero(wide), far = hn::Set(wide, t_end_);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto origin = hn::Set(wide, origin_[axis]);
+        const auto inverse = hn::Set(wide, inverse_[axis]);
+        const auto& ends = node.ends[axis];
+        const auto first = static_cast<std::size_t>(backward_[axis]);
+        near = hn::Max(near, hn::Mul(hn::Sub(hn::Load(wide, ends[first].data() + lane), origin), inverse));
+        far = hn::Min(far, hn::Mul(hn::Sub(hn::Load(wide, ends[1 - first].data() + lane), origin), inverse));
+      }
+      hn::Store(near, wide, t_in + lane);
+      hn::Store(far, wide, t_out + lane);
+      std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(wide, hn::Le(near, far), bits);
+      met |= static_cast<std::uint32_t>(bits[0]) << lane;
+    }
+    Visit* const first = top;
+    for (; met != 0; met &= met - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(met));
+      const Visit visit{node.children[lane].bits, t_in[lane], t_out[lane]};
+      Visit* place = top++;
+      for (; place != first && place[-1].t_in < visit.t_in; --place) *place = place[-1];
+      *place = visit;
+    }
+  }
+
+  CellAnswer Walk(TraversalCounters& counters) {
+    Visit stack[most_pending];
+    Visit* top = stack;
+    CellAnswer answer;
+    Open(cells_.nodes.front(), top);
+    std::uint64_t visited = 0;
+    tests_ = 0;
+    while (top != stack) {
+      const Visit visit = *--top;
+      const ChildRef child{visit.child};
+      if (!child.is_cell()) {
+        Open(cells_.nodes[child.index()], top);
+        continue;
+      }
+      ++visited;
+      const Cell& cell = cells_.cells[child.index()];
+      answer.cell = child.index();
+      const Outcome outcome = Meet(cell, visit.t_in, visit.t_out, answer);
+      if (outcome == Outcome::passed) continue;
+      if (outcome == Outcome::unsure) answer.kind = CellAnswer::Kind::unsure;
+      break;
+    }
+    counters.cells_visited += visited;
+    counters.primitive_tests += tests_ + exact_.TakeTests();
+    return answer;
+  }
+
+  void NeedExact() {
+    if (exact_begun_) return;
+    exact_.Begin(*query_, square_);
+    exact_begun_ = true;
+  }
+
+  // What the exact arithmetic says of a cell. Here t is that of the query.
+  HWY_NOINLINE Outcome Ask(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
+    Outcome outcome = Outcome::unsure;
+    const bool has_chords = !cell.extended && wanted_ != Wanted::hit;
+    if (has_chords) outcome = exact_.Meet(cell, t_in, t_out, answer);
+    if (outcome == Outcome::unsure) outcome = exact_.Resolve(cell, t_in, t_out, answer);
+    return outcome;
+  }
+
+  HWY_NOINLINE Outcome MeetExactly(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
+    NeedExact();
+    const Outcome outcome = Ask(cell, t_in + start_, t_out + start_, answer);
+    if (outcome == Outcome::met) {
+      answer.kind = answer.t < query_->t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
+    }
+    return outcome;
+  }
+
+  // Here t is counted from where the ray meets the scene.
+  HWY_INLINE Outcome Meet(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
+    if (cell.extended || cell.general) return MeetExactly(cell, t_in, t_out, answer);
+    // A leaf that the ray misses is crossed nowhere.
+    constexpr double never = std::numeric_limits<double>::infinity();
+    double enter[Cell::most_tabled], leave[Cell::most_tabled], next[Cell::most_tabled];
+    const One one;
+    std::uint32_t state = 0;
+    const std::uint32_t count = cell.leaf_count;
+    tests_ += count;
+    const bool starts = t_in + start_ <= near_;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Stretch<One> s = FindStretch(one, ray_, cells_.records, cell.records[i], cells_.scale.reach);
+      if (HWY_UNLIKELY(!hn::AllFalse(one, s.unsure))) return MeetExactly(cell, t_in, t_out, answer);
+      const bool hit = !hn::AllFalse(one, s.hit);
+      enter[i] = hit ? hn::GetLane(s.enter) : never;
+      leave[i] = hit ? hn::GetLane(s.leave) : never;
+      if (starts && !ClearStart(*query_, cell, i, near_, cells_.records, enter[i], leave[i])) {
+        return MeetExactly(cell, t_in, t_out, answer);
+      }
+      const bool inside = enter[i] <= t_in && t_in < leave[i];
+      state |= static_cast<std::uint32_t>(inside) << i;
+      next[i] = inside ? leave[i] : enter[i] > t_in ? enter[i] : never;
+    }
+    const std::uint64_t table = cell.table;
+    const std::uint64_t before = table >> state & 1;
+    for (;;) {
+      std::uint32_t first = 0;
+      double t = next[0];
+      for (std::uint32_t i = 1; i < count; ++i) {
+        first = next[i] < t ? i : first;
+        t = next[i] < t ? next[i] : t;
+      }
+      if (!(t <= t_out)) return Outcome::passed;
+      // Crossings at the same double are one step: a change that is undone there is none.
+      for (std::uint32_t i = 0; i < count; ++i) {
+        if (next[i] != t) continue;
+        state ^= 1U << i;
+        next[i] = (state >> i & 1) != 0 ? leave[i] : never;
+      }
+      if ((table >> state & 1) == before) continue;
+      std::uint32_t ends = 0;
+      for (std::uint32_t i = 0; i < count; ++i) {
+        ends += static_cast<std::uint32_t>(std::fabs(enter[i] - t) <= near_);
+        ends += static_cast<std::uint32_t>(std::fabs(leave[i] - t) <= near_);
+      }
+      if (ends > 1) {
+        CrossingGroup group;
+        if (!group.collect(count, enter, leave, t, near_, together_)) return MeetExactly(cell, t_in, t_out, answer);
+        const std::uint32_t after = group.after(state);
+        if ((table >> after & 1) != before) {
+          answer.t = t + start_;
+          FinishGroup(cell, answer);
+          return Outcome::met;
+        }
+        // The faces that coincide cancel.
+        for (std::uint32_t k = 0; k < group.size; ++k) {
+          const std::uint32_t i = group.ends[k].place;
+          next[i] = group.ends[k].entering ? leave[i] : never;
+        }
+        state = after;
+        continue;
+      }
+      answer.t = t + start_;
+      answer.leaf_entering = (state >> first & 1) != 0;
+      answer.before = before != 0;
+      answer.surface = {cell.leaves[first], 0};
+      Finish(answer);
+      return Outcome::met;
+    }
+  }
+
+ public:
+  /// Gives a leaf's ends at the start of a ray their place: of a leaf nothing but the face that the ray starts on may
+  /// lie there, and that is met at exactly 0. Here t is that of the query.
+  static bool ClearStart(const RayQuery& query, const Cell& cell, std::uint32_t place, double near,
+                         const LeafRecords& records, double& enter, double& leave) {
+    const bool enters_here = std::fabs(enter) <= near, leaves_here = std::fabs(leave) <= near;
+    if (query.from == nullptr) return !enters_here && !leaves_here;
+    const int on_face = start_face(query, cell.leaves[place]);
+    if (on_face < 0) return !enters_here && !leaves_here;
+    if (enters_here == leaves_here) return false;
+    if (on_face == 0 && !records.start_is_certain(cell.records[place], query.ray.direction)) return false;
+    (enters_here ? enter : leave) = 0;
+    return true;
+  }
+
+ private:
+  const CellTree& cells_;
+  ExactCell exact_;
+  const Wanted wanted_;
+  const double tolerance_;
+  const RayQuery* query_ = nullptr;
+  double start_ = 0;
+  double near_ = 0;
+  double together_ = 0;
+  double square_ = 0;
+  bool exact_begun_ = false;
+  float origin_[3] = {}, inverse_[3] = {};
+  int backward_[3] = {};
+  float t_end_ = 0;
+  SceneRays<One> ray_{};
+  std::uint64_t tests_ = 0;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tenon::cells
+HWY_AFTER_NAMESPACE();
+
+#endif
