@@ -324,7 +324,7 @@ class BlockTracer {
     auto state = hn::Zero(u);
     auto unsure = hn::Lt(ray.near, hn::Zero(d));  // none
     for (std::uint32_t i = 0; i < count; ++i) {
-      const Stretch<D> s = FindStretch(d, ray, cells_.records, cell.records[i], cells_.scale.reach);
+      const Stretch<D> s = FindStretch(d, ray, cells_.records, cell.records[i], cells_.scale.reach, t_in, t_out, lanes);
       enter[i] = hn::IfThenElse(s.hit, s.enter, never);
       leave[i] = hn::IfThenElse(s.hit, s.leave, never);
       unsure = hn::Or(unsure, s.unsure);

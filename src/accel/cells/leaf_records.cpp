@@ -240,6 +240,26 @@ class Recorder {
     values[at + ProfileRecord::outside] = square(1.25) * radius_square;
   }
 
+  // As TorusQuartic has it: a place that is off by e moves f by e (2 r + e) (1 + (r + e) / R); and w, of size R before
+  // it cancels, rounds sixteen times at most, f is at most 2 r times as much off.
+  RecordRef add(const Leaf& leaf, const Torus& torus) {
+    const Certainty certainty(leaf, tree_, scale_);
+    const double R = torus.R, r = torus.r, e = length(certainty.place());
+    if (!(e < r / 0x1p10)) return {RecordKind::general, 0};
+    const double error = e * (2 * r + e) * (1 + (r + e) / R) + gamma(64) * (R + r) * r;
+    const Placement& p = leaf.placement;
+    std::vector<double> values(TorusRecord::size);
+    for (int i = 0; i < 3; ++i) {
+      put(values, TorusRecord::map + static_cast<std::size_t>(3 * i), p.local_from_world_linear().row(i));
+    }
+    put(values, TorusRecord::center, p.world_origin() - center_);
+    values[TorusRecord::major] = R;
+    values[TorusRecord::minor] = r;
+    values[TorusRecord::error] = 2 * error;
+    values[TorusRecord::least] = certainty.least_slope(2 * error);
+    return append(RecordKind::torus, values);
+  }
+
   RecordRef add(const Leaf& leaf, const ConvexPolyhedron& solid) {
     const Certainty certainty(leaf, tree_, scale_);
     const Placement& p = leaf.placement;

@@ -11,7 +11,7 @@ namespace tenon::cells {
 
 /// The kinds of leaf that rays are followed through by plain arithmetic. A ray that meets a cell with a `general` leaf
 /// is resolved there by the classifier.
-enum class RecordKind : std::uint8_t { general, ball, aligned_box, box, upright, frustum, convex };
+enum class RecordKind : std::uint8_t { general, ball, aligned_box, box, upright, frustum, convex, torus };
 
 /// Where a leaf's record stands, and of what kind it is.
 struct RecordRef {
@@ -62,6 +62,12 @@ struct FrustumRecord {
 /// Planes n·p <= d, the normals of length 1.
 struct ConvexRecord {
   static constexpr std::size_t count = 0, least = 1, planes = 2, plane_size = 4;
+};
+
+/// A ring in a frame of its own: its radii, a bound on the error of TorusQuartic, and the slope of that function along
+/// a ray, over the length of its direction in the world, below which a root is not certain.
+struct TorusRecord {
+  static constexpr std::size_t map = 0, center = 9, major = 12, minor = 13, error = 14, least = 15, size = 16;
 };
 
 /// What following a ray has to know of the leaves: numbers by kind, relative to the tree's centre, line by line of the

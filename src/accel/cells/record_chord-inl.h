@@ -9,59 +9,13 @@
 
 #include <hwy/highway.h>
 
-#include "accel/cells/chord-inl.h"
-#include "accel/cells/leaf_records.h"
+#include "accel/cells/scene_rays-inl.h"
+#include "accel/cells/torus_stretch-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// Rays that start where they meet the scene, relative to the tree's centre.
-template <class D>
-struct SceneRays {
-  Vec3Lanes<D> origin, direction;
-  Vec3Lanes<D> slowness;      ///< 1 / direction, by component; large instead of infinite
-  hn::Vec<D> inverse_square;  ///< 1 / |direction|²
-  hn::Vec<D> length;          ///< |direction|
-  hn::Vec<D> near;            ///< crossings no further apart than this may be one boundary
-  bool flat = false;          ///< some ray is nearly parallel to an axis plane
-};
-
-/// The part of a ray inside a convex solid, or inside the only part of another that it meets.
-template <class D>
-struct Stretch {
-  hn::Vec<D> enter, leave;
-  hn::Mask<D> hit, unsure;
-};
-
-template <class D>
-HWY_INLINE Vec3Lanes<D> Load3(D d, const double* values) {
-  return {hn::Set(d, values[0]), hn::Set(d, values[1]), hn::Set(d, values[2])};
-}
-template <class D>
-HWY_INLINE Vec3Lanes<D> Map3(D d, const double* rows, const Vec3Lanes<D>& v) {
-  return {Dot(Load3(d, rows), v), Dot(Load3(d, rows + 3), v), Dot(Load3(d, rows + 6), v)};
-}
-
-/// For masks what IfThenElse is for vectors.
-template <class M>
-HWY_INLINE M Choose(M condition, M then, M otherwise) {
-  return hn::Or(hn::And(condition, then), hn::AndNot(condition, otherwise));
-}
-
-/// What is shorter than this is grazed.
-template <class D>
-HWY_INLINE hn::Vec<D> ShortestStretch(D d, const SceneRays<D>& ray) {
-  return hn::Mul(hn::Set(d, 2.0), ray.near);
-}
-
-template <class D>
-HWY_INLINE void DoubtShort(D d, const SceneRays<D>& ray, Stretch<D>& s) {
-  const auto width = hn::Sub(s.leave, s.enter);
-  s.unsure = hn::Or(s.unsure, hn::And(s.hit, hn::Le(hn::Abs(width), ShortestStretch(d, ray))));
-  s.hit = hn::And(s.hit, hn::Gt(width, hn::Zero(d)));
-}
 
 template <class D>
 HWY_INLINE Stretch<D> BallStretch(D d, const SceneRays<D>& ray, const double* r) {
@@ -203,14 +157,6 @@ HWY_INLINE void ClipSide(D d, const SceneRays<D>& ray, const Vec3Lanes<D>& o, co
   s.unsure = hn::Or(s.unsure, unsure);
 }
 
-/// From where the ray is nearest to a point, so that no term is larger than the solid asks.
-template <class D>
-HWY_INLINE hn::Vec<D> Approach(const SceneRays<D>& ray, const Vec3Lanes<D>& from, Vec3Lanes<D>& place) {
-  const auto nearest = hn::Neg(hn::Mul(Dot(from, ray.direction), ray.inverse_square));
-  place = MulAdd(nearest, ray.direction, from);
-  return nearest;
-}
-
 template <class D>
 HWY_INLINE void FinishStretch(D d, const SceneRays<D>& ray, hn::Vec<D> shift, Stretch<D>& s) {
   s.enter = hn::Add(s.enter, shift);
@@ -271,9 +217,11 @@ HWY_INLINE Stretch<D> ConvexStretch(D d, const SceneRays<D>& ray, const double* 
 }
 
 /// The stretch of any record.
+/// @param t_in, t_out  the part of each ray that matters: crossings elsewhere may be left out
+/// @param lanes        the rays that matter
 template <class D>
-HWY_INLINE Stretch<D> FindStretch(D d, const SceneRays<D>& ray, const LeafRecords& records, RecordRef ref,
-                                  double reach) {
+HWY_INLINE Stretch<D> FindStretch(D d, const SceneRays<D>& ray, const LeafRecords& records, RecordRef ref, double reach,
+                                  hn::Vec<D> t_in, hn::Vec<D> t_out, hn::Mask<D> lanes) {
   const double* r = records.values(ref);
   switch (ref.kind()) {
     case RecordKind::ball:
@@ -288,6 +236,8 @@ HWY_INLINE Stretch<D> FindStretch(D d, const SceneRays<D>& ray, const LeafRecord
       return FrustumStretch(d, ray, r, reach);
     case RecordKind::convex:
       return ConvexStretch(d, ray, r, reach);
+    case RecordKind::torus:
+      return TorusStretch(d, ray, r, t_in, t_out, lanes);
     case RecordKind::general:
       break;
   }

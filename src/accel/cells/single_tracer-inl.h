@@ -222,12 +222,14 @@ class SingleTracer {
     constexpr double never = std::numeric_limits<double>::infinity();
     double enter[Cell::most_tabled], leave[Cell::most_tabled], next[Cell::most_tabled];
     const One one;
+    const auto all = hn::Eq(hn::Zero(one), hn::Zero(one));
     std::uint32_t state = 0;
     const std::uint32_t count = cell.leaf_count;
     tests_ += count;
     const bool starts = t_in + start_ <= near_;
     for (std::uint32_t i = 0; i < count; ++i) {
-      const Stretch<One> s = FindStretch(one, ray_, cells_.records, cell.records[i], cells_.scale.reach);
+      const Stretch<One> s = FindStretch(one, ray_, cells_.records, cell.records[i], cells_.scale.reach,
+                                         hn::Set(one, t_in), hn::Set(one, t_out), all);
       if (HWY_UNLIKELY(!hn::AllFalse(one, s.unsure))) return MeetExactly(cell, t_in, t_out, answer);
       const bool hit = !hn::AllFalse(one, s.hit);
       enter[i] = hit ? hn::GetLane(s.enter) : never;
