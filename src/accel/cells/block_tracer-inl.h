@@ -37,6 +37,7 @@ class BlockTracer {
 
   /// Traces them; `finisher` gives what was found by plain arithmetic its last bits.
   void Trace(std::span<CellAnswer> answers, SingleTracer& finisher, TraversalStatistics& statistics) {
+    any_will_do_ = finisher.wanted() == Wanted::occlusion;
     Walk();
     TraversalCounters& counters = statistics[queries_[0].kind];
     counters.cells_visited += visited_;
@@ -62,6 +63,7 @@ class BlockTracer {
 
   bool LoadRays() {
     const RayKind kind = queries_[0].kind;
+    has_from_ = false;
     for (std::size_t i = 0; i < count_; ++i) {
       const RayQuery& q = queries_[i];
       if (q.kind != kind) return false;
@@ -71,6 +73,7 @@ class BlockTracer {
         direction_[a][i] = q.ray.direction[axis];
       }
       end_[i] = q.t_max;
+      has_from_ |= q.from != nullptr;
     }
     // Lanes without a ray repeat the last one, and have no length.
     for (std::size_t i = count_; i < padded_; ++i) {
@@ -328,7 +331,11 @@ class BlockTracer {
       enter[i] = hn::IfThenElse(s.hit, s.enter, never);
       leave[i] = hn::IfThenElse(s.hit, s.leave, never);
       unsure = hn::Or(unsure, s.unsure);
-      if (HWY_UNLIKELY(any_starts)) unsure = hn::Or(unsure, DoubtStarts(cell, i, at, starts, enter[i], leave[i]));
+      if (any_starts) {
+        const auto here = hn::Or(hn::Le(hn::Abs(enter[i]), ray.near), hn::Le(hn::Abs(leave[i]), ray.near));
+        unsure =
+            hn::Or(unsure, has_from_ ? DoubtStarts(cell, i, at, starts, enter[i], leave[i]) : hn::And(starts, here));
+      }
       const auto inside = hn::And(hn::Le(enter[i], t_in), hn::Lt(t_in, leave[i]));
       state = hn::Or(state, hn::IfThenElseZero(hn::RebindMask(u, inside), hn::Set(u, std::uint64_t{1} << i)));
       const auto ahead = hn::IfThenElse(hn::Gt(enter[i], t_in), enter[i], never);
@@ -393,7 +400,9 @@ class BlockTracer {
       const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
       found_[at + lane] = index;
       leaf_[at + lane] = cell.leaves[static_cast<std::size_t>(place_[at + lane])];
-      box_end_[at + lane] = std::min(box_end_[at + lane], ends[lane]);
+      const double certain = best_t_[at + lane] + start_[at + lane] + 2 * near_[at + lane];
+      const bool is_done = any_will_do_ && certain < end_[at + lane];
+      box_end_[at + lane] = is_done ? -1 : std::min(box_end_[at + lane], ends[lane]);
       flags_[at + lane] = static_cast<std::uint8_t>((enter_bits >> lane & 1) | (inside_bits >> lane & 1) << 1 |
                                                     (crowd_bits >> lane & 1) << 2);
     }
@@ -542,6 +551,10 @@ class BlockTracer {
     answer.surface = {leaf_[i], 0};
     answer.leaf_entering = (flags_[i] & entering) != 0;
     answer.before = (flags_[i] & was_inside) != 0;
+    if (any_will_do_ && answer.t + 2 * near_[i] < end_[i]) {
+      answer.kind = CellAnswer::Kind::boundary;
+      return;
+    }
     single.BeginKnown(query);
     if ((flags_[i] & group) != 0) {
       single.FinishGroup(cell, answer);
@@ -555,7 +568,7 @@ class BlockTracer {
   std::span<const RayQuery> queries_;
   std::size_t count_ = 0, padded_ = 0;
   std::array<std::size_t, 3> backward_{};
-  bool flat_ = false, is_missed_ = false;
+  bool flat_ = false, is_missed_ = false, has_from_ = false, any_will_do_ = false;
 
   HWY_ALIGN double origin_[3][most_rays];  // where the ray meets the scene, relative to its centre
   HWY_ALIGN double query_origin_[3][most_rays];
