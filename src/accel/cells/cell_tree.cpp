@@ -48,8 +48,7 @@ std::vector<std::pair<std::string, double>> CellTree::details() const {
 }
 
 std::size_t CellTree::memory_bytes() const {
-  return CellStore::memory_bytes() + nodes.size() * sizeof(WideNode) + records.memory_bytes() +
-         shapes.memory_bytes();
+  return CellStore::memory_bytes() + nodes.size() * sizeof(WideNode) + records.memory_bytes() + shapes.memory_bytes();
 }
 
 }  // namespace tenon::cells

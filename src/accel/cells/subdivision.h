@@ -5,8 +5,8 @@
 
 #include "accel/cells/cell_scale.h"
 #include "accel/cells/cell_store.h"
-#include "accel/cells/leaf_regions.h"
 #include "accel/cells/leaf_records.h"
+#include "accel/cells/leaf_regions.h"
 #include "csg/csg_tree.h"
 
 namespace tenon::cells {
