@@ -1,6 +1,7 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "commands.h"
 #include "tenon/base/atomic_file.h"
 #include "tenon/base/interrupt.h"
+#include "tenon/base/suggestion.h"
 #include "tenon/version.h"
 
 namespace {
@@ -39,11 +41,28 @@ int report(const Error& error) {
   return static_cast<int>(error.kind);
 }
 
+// What to say of the first word that looks like an option and is none.
+std::string unknown_option(const CLI::App& command) {
+  for (const std::string& word : command.remaining(true)) {
+    if (!word.starts_with("-") || word.size() < 2) continue;
+    const std::string name = word.substr(0, word.find('='));
+    std::vector<std::string> known;
+    for (const CLI::Option* option : command.get_options()) {
+      for (const std::string& long_name : option->get_lnames()) known.push_back("--" + long_name);
+    }
+    return "there is no option '" + name + "'" + suggestion(name, {known.begin(), known.end()});
+  }
+  return "";
+}
+
 // What CLI11 says, as our messages begin, and with the way on.
 int report_usage(const CLI::App& app, const CLI::ParseError& error) {
   std::string name = "tenon";
-  for (const CLI::App* command : app.get_subcommands()) name += ' ' + command->get_name();
+  const CLI::App* command = &app;
+  for (const CLI::App* chosen : app.get_subcommands()) command = chosen;
+  if (command != &app) name += ' ' + command->get_name();
   std::string message = error.what();
+  if (const std::string option = unknown_option(*command); !option.empty()) message = option;
   // A sentence's capital goes; a name in capitals stays.
   if (message.size() > 1 && std::isupper(static_cast<unsigned char>(message[1])) == 0) {
     message[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(message[0])));
@@ -79,7 +98,17 @@ int run(int argc, char** argv) {
 
   if (argc < 2) return report({ErrorKind::usage, "say what to do: " + names + "; see 'tenon --help'", {}});
   if (is_unknown_command(argv[1])) {
-    return report({ErrorKind::usage, "there is no command '" + std::string(argv[1]) + "'; there are: " + names, {}});
+    const std::string word = argv[1];
+    std::error_code none;
+    if (std::filesystem::is_regular_file(word, none)) {
+      return report(
+          {ErrorKind::usage, "there is no command '" + word + "'; for a picture of it: tenon render " + word, {}});
+    }
+    std::vector<std::string_view> known;
+    for (const Command& command : commands) known.emplace_back(command.name);
+    return report({ErrorKind::usage,
+                   "there is no command '" + word + "'" + suggestion(word, known) + "; there are: " + names,
+                   {}});
   }
   try {
     app.parse(argc, argv);

@@ -1,4 +1,5 @@
 #include "lang/expression_evaluator.h"
+#include "tenon/base/suggestion.h"
 
 namespace tenon::lang {
 

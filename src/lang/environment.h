@@ -65,7 +65,4 @@ class CallCount {
   bool counted_ = false;
 };
 
-/// " (did you mean 'x'?)" with the likeliest of the candidates, or nothing.
-std::string suggestion(std::string_view wrong, const std::vector<std::string_view>& candidates);
-
 }  // namespace tenon::lang

@@ -5,6 +5,7 @@
 #include "lang/deep_stack.h"
 #include "lang/format.h"
 #include "lang/operators.h"
+#include "tenon/base/suggestion.h"
 
 namespace tenon::lang {
 

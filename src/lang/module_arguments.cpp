@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tenon/base/suggestion.h"
+
 namespace tenon::lang {
 
 ModuleArguments::ModuleArguments(ModuleCall& call, std::span<const std::string_view> names, UnknownArgument unknown)
@@ -33,8 +35,12 @@ ModuleArguments::ModuleArguments(ModuleCall& call, std::span<const std::string_v
       places_[slot] = argument.at;
     } else if (argument.name) {
       const std::string& name = environment.text(argument.name);
-      reject(argument.at,
-             module + "() has no parameter '" + name + "'" + suggestion(name, {names.begin(), names.end()}));
+      std::string instead = suggestion(name, {names.begin(), names.end()});
+      if (instead.empty() && !names.empty()) {
+        for (const std::string_view there_is : names)
+          instead += (instead.empty() ? "; there is " : ", ") + std::string(there_is);
+      }
+      reject(argument.at, module + "() has no parameter '" + name + "'" + instead);
     } else {
       reject(argument.at, module + "() has only " + std::to_string(names.size()) + " parameters");
     }

@@ -4,6 +4,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "tenon/base/suggestion.h"
+
 namespace tenon::lang {
 
 ModuleEvaluator::ModuleEvaluator(Environment& environment, const LoadOptions& options)

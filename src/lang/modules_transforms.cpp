@@ -111,10 +111,19 @@ void warn_of_flattening(ModuleCall& call) {
                    environment.text(call.instantiation.name) + "() flattens its children here; they make no solid");
 }
 
+// `rotate(90); cube(3);` turns nothing. A file that a program wrote may say so of its matrices.
+void warn_without_children(ModuleCall& call) {
+  if (!call.instantiation.children->instantiations.empty()) return;
+  Environment& environment = call.evaluator.environment();
+  const std::string& name = environment.text(call.instantiation.name);
+  environment.warn(call.at(), name + "() has no children and moves nothing; is there a ';' too many after it?");
+}
+
 // The children under a transform. One that flattens space leaves no solid. What finds the map is a function apart, for
 // this frame stays on the stack while the children are evaluated, and they may nest deep.
 template <Affine3 (*find_map)(ModuleCall&)>
 std::optional<Solid> transformed(ModuleCall& call) {
+  if constexpr (find_map != multmatrix) warn_without_children(call);
   const Affine3 map = find_map(call);
   ModuleEvaluator& evaluator = call.evaluator;
   const Affine3 outside = std::exchange(evaluator.world_from_here, evaluator.world_from_here * map);

@@ -50,7 +50,11 @@ Token Parser::expect_closing(std::string_view symbol, const Token& opening) {
   if (peek().kind == TokenKind::end) {
     fail(opening.at, "this '" + std::string(opening.text) + "' is never closed; add '" + std::string(symbol) + "'");
   }
-  return expect(symbol, "to close '" + std::string(opening.text) + "'");
+  std::string why = "to close '" + std::string(opening.text) + "'";
+  // Slips of those who think in another language.
+  if (peek().is("=")) why += " (to compare, write '==')";
+  if (peek().is(":")) why += " (a range is written [first : last])";
+  return expect(symbol, why);
 }
 
 void Parser::unexpected(std::string_view wanted) const {

@@ -31,8 +31,11 @@ TEST_F(Usage, HelpAndVersionOfEveryCommand) {
 TEST_F(Usage, ErrorsSayWhatIsWrongAndWriteNothing) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong{
       {{}, "render, merge, denoise, trace, compare, info, convert"},
-      {{"compair", "a.scad"}, "'compair'; there are: render, merge, denoise, trace, compare, info, convert"},
-      {{"a.scad"}, "there is no command 'a.scad'"},
+      {{"compair", "a.scad"},
+       "'compair' (did you mean 'compare'?); there are: render, merge, denoise, trace, compare, info, convert"},
+      {{"a.scad"}, "there is no command 'a.scad'; for a picture of it: tenon render a.scad"},
+      {{"render", "a.scad", "--sise", "3x3"}, "there is no option '--sise' (did you mean '--size'?)"},
+      {{"render", "a.scad", "--sise=3x3"}, "there is no option '--sise' (did you mean '--size'?)"},
       {{"--frobnicate"}, "--frobnicate"},
       {{"render"}, "SCENE"},
       {{"render", "a.scad", "--frobnicate"}, "--frobnicate"},

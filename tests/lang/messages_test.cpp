@@ -86,5 +86,20 @@ TEST(Definitions, OverrideTheFilesOwn) {
   EXPECT_NE(tree_of("", {Facets::automatic, {{"r", "("}}}).find("-D:1:"), std::string::npos);
 }
 
+TEST(Messages, SlipsOfThoseWhoThinkInAnotherLanguage) {
+  EXPECT_NE(error_of("if (x = 3) cube();").find("to compare, write '=='"), std::string::npos);
+  EXPECT_NE(error_of("for (i = 0:3) cube();").find("a range is written [first : last]"), std::string::npos);
+}
+
+TEST(Messages, ATransformWithoutChildrenIsSuspicious) {
+  EXPECT_NE(warnings_of("rotate(90); cube();").find("scene.scad:1:1: warning: rotate() has no children"),
+            std::string::npos);
+  EXPECT_EQ(warnings_of("rotate(90) cube(); multmatrix([[1,0,0,1],[0,1,0,0],[0,0,1,0]]);"), "");
+}
+
+TEST(Messages, AnUnknownParameterNamesThoseThereAre) {
+  EXPECT_NE(warnings_of("cylinder(h = 3, radius = 4);").find("no parameter 'radius'; there is h, "), std::string::npos);
+}
+
 }  // namespace
 }  // namespace tenon
