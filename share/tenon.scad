@@ -73,7 +73,13 @@ module material(name, model, kd, ks, kt, ka, shininess, ior, color, priority, ro
   else color(color) children();
 }
 
-module camera(from, at, up, fov, orthographic) {}
+// Whose material the faces of a cut show, "tool" or "base".
+module cut_faces(show) children();
+
+// What a section view takes away; here the scene stays whole.
+module section(normal, d, planes) {}
+
+module camera(from, at, up, fov, orthographic, aperture, fstop, focus) {}
 module light(type, position, direction, angle, softness, color, intensity, fade_distance, radius, size, up,
              turbidity, turn, file, edges) {}
 module background(color) {}

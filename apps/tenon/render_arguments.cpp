@@ -45,6 +45,7 @@ void RenderArguments::add_to(CLI::App& command) {
   view.add_to(command);
   command.add_flag("--transparent", transparent,
                    "Leave the background out: alpha says how much of each pixel the solids cover");
+  section_style.add_to(command);
   command
       .add_option("--stats", statistics, "Write what was counted and measured to a JSON file; - for standard output")
       ->type_name("FILE");
@@ -71,6 +72,10 @@ Result<RenderPlan> plan_render(const RenderArguments& arguments) {
   Result<ViewRequest> view = plan_view(arguments.view, static_cast<double>(plan.width) / plan.height);
   if (!view) return view.error();
   plan.view = *view;
+  plan.view.keeps_light = arguments.section_style.light == "keep";
+  const Result<std::optional<HatchOptions>> hatch = plan_hatch(arguments.section_style);
+  if (!hatch) return hatch.error();
+  plan.hatch = *hatch;
   return plan;
 }
 

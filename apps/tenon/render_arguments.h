@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "section_arguments.h"
 #include "tenon/base/error.h"
 #include "tenon/render/renderer.h"
 #include "view_arguments.h"
@@ -14,6 +15,7 @@ struct RenderArguments {
   std::string size = "640x480";
   std::string integrator = "whitted";
   ViewArguments view;
+  SectionStyleArguments section_style;
   std::string statistics;
   int depth = 0;
   std::uint64_t seed = 0;
@@ -28,6 +30,7 @@ struct RenderPlan {
   IntegratorKind integrator = IntegratorKind::whitted;
   int depth = 8;
   ViewRequest view;
+  std::optional<HatchOptions> hatch;
 };
 
 /// @return the plan, or a usage error

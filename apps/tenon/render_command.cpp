@@ -48,7 +48,8 @@ std::string RenderCommand::dependent_arguments(const RenderOptions& options) con
           std::to_string(options.samples) + " --depth " + std::to_string(options.depth);
   if (options.integrator == IntegratorKind::path) text += " --seed " + std::to_string(options.seed);
   for (const std::string& cut : scene.section.cuts) text += " --cut " + cut;
-  text += render.view.words();
+  if (scene.cut_faces != "tool") text += " --cut-faces " + scene.cut_faces;
+  text += render.view.words() + render.section_style.words();
   if (options.transparent) text += " --transparent";
   if (options.noise > 0) {
     char noise[48];
@@ -65,6 +66,7 @@ Result<RenderOptions> RenderCommand::plan_options(const RenderPlan& plan, const 
   options.integrator = plan.integrator;
   options.depth = plan.depth;
   options.seed = render.seed;
+  options.hatch = plan.hatch;
   // Whatever file the picture ends in: parts of it are kept as EXR, and are to add up to the same.
   options.threshold = invisible_share(16);
   options.threads = tracing.thread_count();

@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "numbers.h"
+#include "tenon/accel/section_light.h"
 #include "tenon/base/fingerprint.h"
 #include "tenon/base/parallel_for.h"
 #include "tenon/image/light_file.h"
@@ -59,6 +60,13 @@ void SceneArguments::add_to(CLI::App& command) {
       ->type_name("WHEN")
       ->check(CLI::IsMember({"auto", "always", "never"}));
   section.add_to(command);
+  command
+      .add_option("--cut-faces", cut_faces,
+                  "Whose material the faces of a difference show: the tool's, where it was given one, or that of the "
+                  "base that was cut")
+      ->type_name("WHOSE")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"tool", "base"}));
   command.add_flag("-q,--quiet", quiet, "Show no progress");
 }
 
@@ -113,7 +121,12 @@ Result<Model> load(const SceneArguments& arguments, Console& console) {
   console.progress().begin("reading " + arguments.path);
   Result<Model> model = load_model(arguments.path, *options, console.diagnostics());
   console.progress().end();
-  if (model) model->section.insert(model->section.end(), cuts->begin(), cuts->end());
+  if (!model) return model;
+  model->section.insert(model->section.end(), cuts->begin(), cuts->end());
+  SceneGraph& graph = model->graph;
+  if (arguments.cut_faces == "base" && graph.root) {
+    graph.root = graph.add({CutFacesAttribute{CutFaces::base}, {graph.root}});
+  }
   return model;
 }
 
@@ -148,11 +161,18 @@ Result<TraceableScene> prepare(const SceneArguments& arguments, const TracingArg
   if (picture != nullptr) {
     const Result<CameraRays> rays = CameraRays::create(scene->camera, picture->width, picture->height);
     if (!rays) return rays.error();
-    screen = rays->view();
+    // Through a lens primary rays do not start at the eye.
+    if (!rays->has_lens()) screen = rays->view();
   }
 
   Result<BuiltAccelerator> built = build_timed(tracing.accelerator, *scene, screen ? &*screen : nullptr, console);
   if (!built) return built.error();
+  if (scene->whole) {
+    Result<std::unique_ptr<Accelerator>> whole = build_accelerator(tracing.accelerator, *scene->whole);
+    if (!whole) return whole.error();
+    built->accelerator =
+        light_of_the_whole(std::move(built->accelerator), std::move(*whole), scene->first_section_plane);
+  }
   return TraceableScene{std::move(*scene), std::move(built->accelerator), built->seconds, scene_fingerprint};
 }
 

@@ -21,6 +21,7 @@ struct SceneArguments {
   std::vector<std::string> definitions;
   std::string facets = "auto";
   SectionArguments section;
+  std::string cut_faces = "tool";
   bool quiet = false;
 
   void add_to(CLI::App& command);

@@ -46,6 +46,53 @@ void SectionArguments::add_to(CLI::App& command) {
       ->allow_extra_args(false);
 }
 
+void SectionStyleArguments::add_to(CLI::App& command) {
+  command.add_flag("--hatch", hatch, "Draw lines across the cut faces of a section view, each material its own way");
+  command.add_option("--hatch-angle", angle, "Of the first material's lines against the picture's horizontal, degrees")
+      ->type_name("A")
+      ->capture_default_str();
+  command
+      .add_option("--hatch-spacing", spacing,
+                  "Between the first material's lines: in the scene's units, and the lines lie in the cut's plane; or "
+                  "in pixels, such as 8px, and they lie in the picture. Otherwise by the solid's size")
+      ->type_name("S|Spx");
+  command
+      .add_option("--cut-light", light,
+                  "Whether what a section view takes away still casts its shadows: keep, remove; cut faces are lit "
+                  "either way")
+      ->type_name("WHAT")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"keep", "remove"}));
+}
+
+std::string SectionStyleArguments::words() const {
+  std::string text;
+  if (light != "remove") text += " --cut-light " + light;
+  if (!hatch) return text;
+  text += " --hatch --hatch-angle " + shortest(angle);
+  if (!spacing.empty()) text += " --hatch-spacing " + spacing;
+  return text;
+}
+
+Result<std::optional<HatchOptions>> plan_hatch(const SectionStyleArguments& arguments) {
+  HatchOptions options;
+  options.angle = arguments.angle;
+  if (!std::isfinite(options.angle)) return usage_error("--hatch-angle takes degrees");
+  std::string_view text = arguments.spacing;
+  if (!text.empty()) {
+    options.in_pixels = text.ends_with("px");
+    if (options.in_pixels) text.remove_suffix(2);
+    const auto spacing = parse_number<double>(text);
+    if (!spacing || !(*spacing > 0) || !std::isfinite(*spacing)) {
+      return usage_error(
+          "--hatch-spacing takes a length above 0 in the scene's units, or in pixels, such as 8px, not '" +
+          arguments.spacing + "'");
+    }
+    options.spacing = *spacing;
+  }
+  return arguments.hatch ? std::optional(options) : std::nullopt;
+}
+
 Result<std::vector<SectionCut>> parse_cuts(const SectionArguments& arguments) {
   std::vector<SectionCut> cuts;
   for (const std::string& text : arguments.cuts) {

@@ -49,6 +49,16 @@ void ViewArguments::add_to(CLI::App& command) {
           "Look at the whole solid from there: degrees around z (0 from +x, 90 from +y, -90 from the front) and "
           "above the xy-plane")
       ->type_name("AZ,EL");
+  command
+      .add_option("--aperture", aperture,
+                  "Diameter of the camera's lens, in the scene's units: what is not in focus is blurred, the more the "
+                  "larger it is")
+      ->type_name("D")
+      ->check(CLI::NonNegativeNumber);
+  command
+      .add_option("--focus", focus,
+                  "What is sharp through a lens: a distance from the camera, or a point; else what it looks at")
+      ->type_name("D|X,Y,Z");
   command.add_flag("--fit", fit, "Move the camera, without turning it, until the whole solid just fills the picture");
   command.add_flag("--ortho,--orthographic", orthographic,
                    "Parallel rays, covering what the camera would see at the point it looks at");
@@ -58,6 +68,8 @@ std::string ViewArguments::words() const {
   std::string text;
   if (!camera.empty()) text += " --camera " + camera;
   if (!angles.empty()) text += " --view " + angles;
+  if (aperture) text += " --aperture " + shortest(*aperture);
+  if (!focus.empty()) text += " --focus " + focus;
   if (fit) text += " --fit";
   if (orthographic) text += " --orthographic";
   return text;
@@ -74,6 +86,18 @@ Result<ViewRequest> plan_view(const ViewArguments& arguments, double aspect) {
     const Result<ViewAngles> angles = parse_angles(arguments.angles);
     if (!angles) return angles.error();
     request.angles = *angles;
+  }
+  request.aperture = arguments.aperture;
+  if (!arguments.focus.empty()) {
+    const auto numbers = parse_numbers(arguments.focus);
+    if (!numbers || (numbers->size() != 1 && numbers->size() != 3)) {
+      return usage_error("--focus takes a distance or a point x,y,z, not '" + arguments.focus + "'");
+    }
+    if (numbers->size() == 1) {
+      request.focus = (*numbers)[0];
+    } else {
+      request.focus_point = Vec3{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+    }
   }
   request.fit = arguments.fit;
   request.orthographic = arguments.orthographic;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "tenon/base/error.h"
@@ -12,6 +13,8 @@ namespace tenon {
 struct ViewArguments {
   std::string camera;
   std::string angles;
+  std::optional<double> aperture;
+  std::string focus;
   bool fit = false;
   bool orthographic = false;
 

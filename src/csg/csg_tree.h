@@ -26,7 +26,8 @@ struct Leaf {
   MaterialId material;        ///< the nearest `material`; none when there is none
   std::optional<Rgba> color;  ///< the outermost `color`
   MediumId medium = medium_opaque;
-  double priority = 0;  ///< of its material, where media overlap
+  double priority = 0;             ///< of its material, where media overlap
+  bool shows_what_it_cut = false;  ///< it is subtracted, and its faces show the material of what it was taken from
 };
 
 enum class CsgOperation : std::uint8_t { leaf, union_, intersection, difference, complement };

@@ -27,7 +27,7 @@ Hit make_hit(const CsgTree& tree, const Ray& ray, const Run& run) {
   // no component is -0, which JSON would print.
   const bool opposite = run.leaf_entering != hit.entering;
   hit.normal = opposite ? Vec3{} - hit.normal : Vec3{} + hit.normal;
-  if (!hit.material && run.owner) hit.material = tree[run.owner].material;
+  if ((!hit.material || leaf.shows_what_it_cut) && run.owner) hit.material = tree[run.owner].material;
   // Behind glass that touches an opaque solid it is the opaque solid that is seen.
   const bool between_media = run.before != medium_outside && run.after != medium_outside;
   if (between_media && run.after == medium_opaque && run.owner) hit.material = tree[run.owner].material;

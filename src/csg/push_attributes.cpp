@@ -14,6 +14,7 @@ struct Attributes {
   BoundedAffine3 world_from_local;
   MaterialId material;
   std::optional<Rgba> color;
+  CutFaces cut_faces = CutFaces::tool;
 };
 
 // A node whose children are being visited.
@@ -79,6 +80,8 @@ class Pusher {
       if (!attributes.color) attributes.color = color->color;
     } else if (const auto* material = std::get_if<MaterialAttribute>(&node.content)) {
       attributes.material = material->material;
+    } else if (const auto* cut_faces = std::get_if<CutFacesAttribute>(&node.content)) {
+      attributes.cut_faces = cut_faces->show;
     }
     return attributes;
   }
@@ -163,6 +166,7 @@ class Pusher {
     tree_.nodes.push_back(node);
     Leaf leaf{primitive, *placement,          world_bounds(store, primitive, *placement),
               node_id,   attributes.material, attributes.color};
+    leaf.shows_what_it_cut = attributes.cut_faces == CutFaces::base && is_subtracted();
     tree_.leaves.push_back(leaf);
   }
 

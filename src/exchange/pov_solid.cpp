@@ -67,7 +67,8 @@ class PovSolidPrinter {
       const CsgNode& node = tree_.nodes[i];
       NodeSummary& s = summaries_[i];
       if (node.operation == CsgOperation::leaf) {
-        const MaterialId material = tree_[node.leaf].material;
+        const Leaf& leaf = tree_[node.leaf];
+        const MaterialId material = leaf.shows_what_it_cut ? MaterialId{} : leaf.material;
         s.coat = material || !is_tool_[i] ? Coat::one : Coat::bare;
         s.material = material;
         continue;

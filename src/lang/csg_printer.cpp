@@ -61,6 +61,8 @@ class CsgPrinter {
       out_ += ')';
     } else if (const auto* of = std::get_if<MaterialAttribute>(&node.content)) {
       material(model_.materials[of->material.get()]);
+    } else if (const auto* cut_faces = std::get_if<CutFacesAttribute>(&node.content)) {
+      out_ += cut_faces->show == CutFaces::base ? "cut_faces(\"base\")" : "cut_faces(\"tool\")";
     }
     out_ += " {\n";
     path.push_back({id, 0});
@@ -209,7 +211,21 @@ class CsgPrinter {
       } else {
         parameter("orthographic", c->width);
       }
+      if (c->aperture > 0) {
+        parameter("aperture", c->aperture);
+        parameter("focus", c->focus.value_or(length(c->at - c->from)));
+      }
       out_ += ");\n";
+    }
+    for (const SectionCut& cut : model_.section) {
+      out_ += "section(planes = [";
+      for (std::size_t i = 0; i < cut.planes.size(); ++i) {
+        const SectionPlane& plane = cut.planes[i];
+        const std::array plane_numbers{plane.normal.x, plane.normal.y, plane.normal.z, plane.d.value_or(0)};
+        if (i > 0) out_ += ", ";
+        numbers(std::span(plane_numbers).first(plane.d ? 4 : 3));
+      }
+      out_ += "]);\n";
     }
     for (const Light& l : model_.lights) light(l);
     if (model_.background) color_statement("background", *model_.background);

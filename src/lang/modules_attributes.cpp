@@ -266,11 +266,25 @@ std::optional<Solid> material(ModuleCall& call) {
   return call.evaluator.builder().wrap(MaterialAttribute{id}, children_of(call));
 }
 
+constexpr std::string_view cut_faces_names[] = {"show"};
+
+std::optional<Solid> cut_faces(ModuleCall& call) {
+  const ModuleArguments arguments(call, cut_faces_names, UnknownArgument::fail);
+  const String* text = arguments[0].string();
+  const std::string show = text ? text->text() : "";
+  if (show != "tool" && show != "base") {
+    fail(arguments.at(0), "'show' must be \"tool\" or \"base\": whose material the faces of a cut show");
+  }
+  const CutFacesAttribute attribute{show == "base" ? CutFaces::base : CutFaces::tool};
+  return call.evaluator.builder().wrap(attribute, children_of(call));
+}
+
 }  // namespace
 
 void add_attribute_modules(BuiltinModuleTable& table, SymbolTable& symbols) {
   table.emplace(symbols.intern("color"), color);
   table.emplace(symbols.intern("material"), material);
+  table.emplace(symbols.intern("cut_faces"), cut_faces);
 }
 
 }  // namespace tenon::lang

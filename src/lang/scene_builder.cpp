@@ -80,6 +80,7 @@ Solid SceneBuilder::wrap_any(const Content& content, const Solids& parts) {
 template Solid SceneBuilder::wrap_any(const Transform&, const Solids&);
 template Solid SceneBuilder::wrap_any(const ColorAttribute&, const Solids&);
 template Solid SceneBuilder::wrap_any(const MaterialAttribute&, const Solids&);
+template Solid SceneBuilder::wrap_any(const CutFacesAttribute&, const Solids&);
 
 Solid SceneBuilder::leaf(PrimitiveId primitive) {
   return add({PrimitiveLeaf{primitive}, {}}, false);

@@ -39,10 +39,11 @@ class SceneBuilder {
   Solid subtract(const Solids& parts);
   /// Everything outside the union of the parts.
   Solid complement(const Solids& parts);
-  /// The union of the parts under a transform, a colour or a material.
+  /// The union of the parts under a transform or an attribute.
   Solid wrap(const Transform& transform, const Solids& parts) { return wrap_any(transform, parts); }
   Solid wrap(const ColorAttribute& color, const Solids& parts) { return wrap_any(color, parts); }
   Solid wrap(const MaterialAttribute& material, const Solids& parts) { return wrap_any(material, parts); }
+  Solid wrap(const CutFacesAttribute& cut_faces, const Solids& parts) { return wrap_any(cut_faces, parts); }
   Solid leaf(PrimitiveId primitive);
 
   /// The id of a material equal to this one.

@@ -52,6 +52,7 @@ Result<P> make(std::span<const FieldValue> values) {
 }  // namespace
 
 PrimitiveStore::PrimitiveStore() : lists_(std::make_unique<Lists>()) {}
+PrimitiveStore::PrimitiveStore(const PrimitiveStore& other) : lists_(std::make_unique<Lists>(*other.lists_)) {}
 PrimitiveStore::PrimitiveStore(PrimitiveStore&&) noexcept = default;
 PrimitiveStore& PrimitiveStore::operator=(PrimitiveStore&&) noexcept = default;
 PrimitiveStore::~PrimitiveStore() = default;

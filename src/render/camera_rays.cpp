@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "scene/camera_frame.h"
 
@@ -11,6 +12,17 @@ namespace {
 
 Error camera_error(std::string message) {
   return {ErrorKind::input, "camera: " + std::move(message), {}};
+}
+
+// The unit square onto the unit disc, evenly, squares onto rings (Shirley and Chiu, "A Low Distortion Map Between Disk
+// and Square", 1997).
+std::pair<double, double> concentric_disk(double u, double v) {
+  const double a = 2 * u - 1, b = 2 * v - 1;
+  if (a == 0 && b == 0) return {0, 0};
+  const bool wide = std::fabs(a) > std::fabs(b);
+  const double r = wide ? a : b;
+  const double angle = wide ? b / a * (std::numbers::pi / 4) : std::numbers::pi / 2 - a / b * (std::numbers::pi / 4);
+  return {r * std::cos(angle), r * std::sin(angle)};
 }
 
 bool is_finite(const Vec3& v) {
@@ -46,7 +58,17 @@ Result<CameraRays> CameraRays::create(const Camera& camera, int width, int heigh
     }
     screen.half_width = std::tan(camera.fov * (std::numbers::pi / 360));
   }
-  return CameraRays(screen);
+  const double focus = camera.focus.value_or(length(view));
+  if (!(camera.aperture >= 0) || !std::isfinite(camera.aperture)) {
+    return camera_error("the aperture is the diameter of the lens, and must not be negative");
+  }
+  if (camera.aperture > 0 && screen.orthographic) {
+    return camera_error("parallel rays pass no lens; leave the aperture out, or the orthographic view");
+  }
+  if (camera.aperture > 0 && !(focus > 0 && std::isfinite(focus))) {
+    return camera_error("the focus must lie in front of it");
+  }
+  return CameraRays(screen, camera.aperture / 2, focus);
 }
 
 Ray CameraRays::ray(double x, double y) const {
@@ -55,6 +77,15 @@ Ray CameraRays::ray(double x, double y) const {
   const Vec3 offset = ((2 * x - view_.width) * scale) * view_.right + ((view_.height - 2 * y) * scale) * view_.up;
   if (view_.orthographic) return {view_.eye + offset, view_.forward};
   return {view_.eye, normalize(view_.forward + offset)};
+}
+
+Ray CameraRays::ray(double x, double y, double u, double v) const {
+  const Ray through_center = ray(x, y);
+  if (!has_lens()) return through_center;
+  const auto [s, t] = concentric_disk(u, v);
+  const Vec3 start = view_.eye + (lens_radius_ * s) * view_.right + (lens_radius_ * t) * view_.up;
+  const Vec3 sharp = view_.eye + (focus_ / dot(through_center.direction, view_.forward)) * through_center.direction;
+  return {start, normalize(sharp - start)};
 }
 
 }  // namespace tenon

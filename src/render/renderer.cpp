@@ -175,10 +175,12 @@ Result<Rendering> render(const Scene& scene, const Accelerator& accelerator, con
   FilmWork work(options, control, rendering.film);
   const int wanted = options.threads > 0 ? options.threads : available_threads();
   rendering.threads = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(wanted), work.tiles()));
+  std::optional<SectionHatch> hatch;
+  if (options.hatch) hatch.emplace(scene, *camera, *options.hatch, static_cast<int>(options.samples));
   std::vector<std::unique_ptr<TileWorker>> workers;
   for (int i = 0; i < rendering.threads; ++i) {
-    workers.push_back(
-        std::make_unique<TileWorker>(lit, features ? &*features : nullptr, accelerator, *camera, options));
+    workers.push_back(std::make_unique<TileWorker>(lit, features ? &*features : nullptr, hatch ? &*hatch : nullptr,
+                                                   accelerator, *camera, options));
   }
   rendering.end = work.run(workers);
   rendering.done = work.done();

@@ -18,9 +18,10 @@ std::unique_ptr<Integrator> make_integrator(const LitScene& scene, const Acceler
 
 }  // namespace
 
-TileWorker::TileWorker(const LitScene& scene, const SurfaceFeatures* features, const Accelerator& accelerator,
-                       const CameraRays& camera, const RenderOptions& options)
+TileWorker::TileWorker(const LitScene& scene, const SurfaceFeatures* features, const SectionHatch* hatch,
+                       const Accelerator& accelerator, const CameraRays& camera, const RenderOptions& options)
     : features_(features),
+      hatch_(hatch),
       accelerator_(accelerator),
       camera_(camera),
       samples_(options.samples),
@@ -46,6 +47,7 @@ void TileWorker::aim(const PixelWindow& tile, std::uint32_t index) {
   hits_.resize(tile.pixels());
   ids_.resize(tile.pixels());
   light_.resize(tile.pixels());
+  places_.resize(tile.pixels());
   const PixelSample shared = pixel_sample(index, samples_);
   std::size_t i = 0;
   for (int y = tile.y0; y < tile.y1; ++y) {
@@ -53,7 +55,9 @@ void TileWorker::aim(const PixelWindow& tile, std::uint32_t index) {
       const SampleId id = ids_[i] = {x, y, index};
       RayQuery& query = queries_[i++];
       const Sample2 place = is_random_ ? sampler_(id, sample_pair::pixel) : Sample2{shared.x, shared.y};
-      query.ray = camera_.ray(x + place.u, y + place.v);
+      const Sample2 lens = camera_.has_lens() ? sampler_(id, sample_pair::lens) : Sample2{};
+      places_[i - 1] = {x + place.u, y + place.v};
+      query.ray = camera_.ray(x + place.u, y + place.v, lens.u, lens.v);
       query.pixel_x = x;
       query.pixel_y = y;
     }
@@ -64,7 +68,7 @@ void TileWorker::add(std::size_t i, Film& film) {
   const RayQuery& query = queries_[i];
   FilmSample sample;
   sample.index = ids_[i].index;
-  sample.light = light_[i];
+  sample.light = hatch_ != nullptr ? hatch_->light(hits_[i], places_[i]) * light_[i] : light_[i];
   if (transparent_ && !hits_[i].found()) {
     sample.light = {};
     sample.alpha = 0;

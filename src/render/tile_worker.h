@@ -7,6 +7,7 @@
 #include "render/integrator.h"
 #include "render/lit_scene.h"
 #include "render/sampler.h"
+#include "render/section_hatch.h"
 #include "render/surface_features.h"
 #include "tenon/accel/accelerator.h"
 #include "tenon/film/film.h"
@@ -19,8 +20,9 @@ namespace tenon {
 class TileWorker {
  public:
   /// @param features  null: the film has no layers of surfaces
-  TileWorker(const LitScene& scene, const SurfaceFeatures* features, const Accelerator& accelerator,
-             const CameraRays& camera, const RenderOptions& options);
+  /// @param hatch     null: cut faces have no lines
+  TileWorker(const LitScene& scene, const SurfaceFeatures* features, const SectionHatch* hatch,
+             const Accelerator& accelerator, const CameraRays& camera, const RenderOptions& options);
 
   /// Adds the samples [first, end) of a tile's pixels to a film.
   void take(const PixelWindow& tile, std::uint32_t first, std::uint32_t end, Film& film);
@@ -33,6 +35,7 @@ class TileWorker {
   void look_through(const RayQuery& query, FilmSample& sample);
 
   const SurfaceFeatures* features_;
+  const SectionHatch* hatch_;
   const Accelerator& accelerator_;
   const CameraRays& camera_;
   std::uint32_t samples_;
@@ -41,6 +44,7 @@ class TileWorker {
   std::unique_ptr<TraceContext> context_, span_context_;
   std::unique_ptr<Integrator> integrator_;
   std::vector<SampleId> ids_;
+  std::vector<PicturePlace> places_;
   std::vector<RayQuery> queries_;
   std::vector<Hit> hits_;
   std::vector<Rgb> light_;

@@ -94,10 +94,9 @@ Camera made_orthographic(Camera camera) {
   return camera;
 }
 
-}  // namespace
-
-Camera choose_camera(const ViewRequest& request, const std::optional<Camera>& camera, const CsgTree& tree,
-                     std::span<const SectionCut> cuts) {
+// The camera without its lens.
+Camera choose_place(const ViewRequest& request, const std::optional<Camera>& camera, const CsgTree& tree,
+                    std::span<const SectionCut> cuts) {
   const std::optional<Camera>& given = request.camera ? request.camera : camera;
   Camera chosen = given.value_or(Camera{});
   const bool turned = request.angles || !given;
@@ -107,18 +106,29 @@ Camera choose_camera(const ViewRequest& request, const std::optional<Camera>& ca
   if (request.angles) {
     chosen = looking_from(*request.angles, chosen);
   } else if (!given) {
-    const ViewAngles usual = usual_angles(extent.enclosure().size());
+    const ViewAngles usual = usual_angles(extent.enclosure().is_empty() ? Vec3{} : extent.enclosure().size());
     chosen = looking_from(cuts.empty() ? usual : angles_to_see(cuts, usual), chosen);
   }
   if (request.orthographic) chosen = made_orthographic(chosen);
   return fit_camera(chosen, extent, request.aspect, request.fit ? filled_up : with_air);
 }
 
+}  // namespace
+
+Camera choose_camera(const ViewRequest& request, const std::optional<Camera>& camera, const CsgTree& tree,
+                     std::span<const SectionCut> cuts) {
+  Camera chosen = choose_place(request, camera, tree, cuts);
+  if (request.aperture) chosen.aperture = *request.aperture;
+  if (request.focus) chosen.focus = request.focus;
+  if (request.focus_point) chosen.focus = dot(*request.focus_point - chosen.from, normalize(chosen.at - chosen.from));
+  return chosen;
+}
+
 Camera fit_camera(const Camera& camera, SolidExtent& extent, double aspect, double filled) {
   const CameraFrame frame = CameraFrame::along(camera.at - camera.from, camera.up);
   const Vec3 back = -frame.forward;
-  const Vec3 middle = extent.enclosure().center();
   const bool empty = extent.is_empty();
+  const Vec3 middle = extent.enclosure().is_empty() ? Vec3{} : extent.enclosure().center();
   // How far the solid reaches from the middle; a point where nothing is left.
   const auto reach = [&](const Vec3& n) { return empty ? 0 : extent.support(n) - dot(n, middle); };
   const double least = extent.resolution() > 0 ? extent.resolution() : 1;

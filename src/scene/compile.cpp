@@ -131,11 +131,15 @@ Result<Scene> compile_scene(Model model, Diagnostics& diagnostics, const ViewReq
     tree->has_media |= leaf.medium > medium_opaque;
   }
 
+  if (view.keeps_light && !model.section.empty()) scene.whole = std::make_shared<CsgTree>(*tree);
   const Result<LeafId> first_plane = cut_tree(*tree, model.section);
   if (!first_plane) return first_plane.error();
   scene.first_section_plane = *first_plane;
-  if (!model.section.empty() && SolidExtent(*tree).is_empty()) {
-    diagnostics.warn("nothing is left of the scene; each cut takes away the side that its normal points to");
+  // Whoever chose a camera may look at nothing on purpose.
+  if ((!model.section.empty() || !(view.camera || model.camera)) && SolidExtent(*tree).is_empty()) {
+    diagnostics.warn(model.section.empty()
+                         ? "nothing is left of the scene; its differences and intersections hold no point"
+                         : "nothing is left of the scene; each cut takes away the side that its normal points to");
   }
 
   scene.camera = choose_camera(view, model.camera, *tree, model.section);

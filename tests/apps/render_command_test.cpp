@@ -152,6 +152,45 @@ TEST_F(RenderCommand, CutsThatAreNone) {
   }
 }
 
+TEST_F(RenderCommand, HatchesLightAndLens) {
+  const auto picture = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> all{"render", "ball.scad", "-q", "--size", "60x40", "--cut", "-y", "-o", "ball.png"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Outcome outcome = run(all);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return read("ball.png");
+  };
+  std::set<std::string> different;
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{},
+                                             {"--hatch"},
+                                             {"--hatch", "--hatch-angle", "-30"},
+                                             {"--hatch", "--hatch-spacing", "0.3"},
+                                             {"--hatch", "--hatch-spacing", "6px"},
+                                             {"--cut-light", "keep"},
+                                             {"--aperture", "0.4"},
+                                             {"--aperture", "0.4", "--focus", "1"},
+                                             {"--aperture", "0.4", "--focus", "1,0,0.5"}}) {
+    different.insert(picture(words));
+  }
+  EXPECT_EQ(different.size(), 9u);
+  for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{{"--hatch-spacing", "0"},
+                                                                                     {"--hatch-spacing", "px"},
+                                                                                     {"--hatch-spacing", "-3px"},
+                                                                                     {"--cut-light", "on"},
+                                                                                     {"--cut-faces", "both"},
+                                                                                     {"--aperture", "-1"},
+                                                                                     {"--focus", "1,2"},
+                                                                                     {"--view", "1"},
+                                                                                     {"--view", "0,91"}}) {
+    std::vector<std::string> all{"render", "ball.scad", "-q"};
+    all.insert(all.end(), wrong.begin(), wrong.end());
+    const Outcome outcome = run(all);
+    EXPECT_EQ(outcome.status, 2) << wrong[0] << ' ' << wrong[1];
+    EXPECT_TRUE(contains(outcome.err, wrong[0])) << outcome.err;
+  }
+}
+
 TEST_F(RenderCommand, FitFillsThePictureWhateverItsShape) {
   for (const std::string size : {"60x60", "90x30", "30x90"}) {
     ASSERT_EQ(run({"render", "ball.scad", "-q", "--size", size, "--view", "20,10", "--fit", "--ortho"}).status, 0);

@@ -64,6 +64,17 @@ TEST(MaterialModule, MistakesAreErrors) {
   EXPECT_NE(error_of("material(kd = -1) cube();").find("at least 0"), std::string::npos);
 }
 
+TEST(CutFacesModule, TakesToolOrBase) {
+  const auto show = [](const std::string& argument) {
+    const Model model = model_of("cut_faces(" + argument + ") cube();");
+    return std::get<CutFacesAttribute>(model.graph[model.graph.root].content).show;
+  };
+  EXPECT_EQ(show("\"base\""), CutFaces::base);
+  EXPECT_EQ(show("show = \"tool\""), CutFaces::tool);
+  EXPECT_NE(error_of("cut_faces(\"bas\") cube();").find("scene.scad:1:11: error: 'show' must be"), std::string::npos);
+  EXPECT_NE(error_of("cut_faces() cube();").find("'show' must be"), std::string::npos);
+}
+
 TEST(View, CameraLightsBackgroundAmbient) {
   const Model model = model_of(
       "camera(from = [1, 2, 3], at = [0, 0, 1], fov = 50);"
@@ -79,6 +90,45 @@ TEST(View, CameraLightsBackgroundAmbient) {
   EXPECT_EQ(model.lights[0].intensity, 2);
   EXPECT_EQ(model.background, (Rgba{1, 1, 1, 1}));
   EXPECT_EQ(model.ambient, (Rgba{0.3, 0.3, 0.3, 1}));
+}
+
+TEST(View, ALensHasADiameterOrAStopAndAFocus) {
+  const auto camera = [](const std::string& arguments) {
+    return *model_of("camera(from = [0, -100, 0], at = [0, 0, 0], " + arguments + "); cube();").camera;
+  };
+  EXPECT_EQ(camera("fov = 30").aperture, 0);
+  EXPECT_EQ(camera("aperture = 3").aperture, 3);
+  EXPECT_EQ(camera("aperture = 3").focus, std::nullopt);
+  EXPECT_EQ(camera("aperture = 3, focus = 70").focus, 70);
+  EXPECT_DOUBLE_EQ(*camera("aperture = 3, focus = [40, -20, 9]").focus, 80) << "along the view";
+  // A lens of 50 mm on film 36 wide, at f/2.
+  EXPECT_NEAR(camera("fov = 2 * atan(18 / 50), fstop = 2").aperture, 25, 1e-12);
+  const Camera scaled =
+      *model_of("scale(2) { camera(from = [0, -10, 0], at = [0, 0, 0], aperture = 1, focus = 5); cube(); }").camera;
+  EXPECT_DOUBLE_EQ(scaled.aperture, 2);
+  EXPECT_DOUBLE_EQ(*scaled.focus, 10);
+  EXPECT_NE(error_of("camera(aperture = 1, fstop = 2);").find("one of the two"), std::string::npos);
+  EXPECT_NE(error_of("camera(orthographic = 9, aperture = 1);").find("parallel rays"), std::string::npos);
+  EXPECT_NE(error_of("camera(focus = [99, -99, 99]);").find("in front"), std::string::npos);
+  EXPECT_NE(error_of("camera(fstop = 0);").find("above 0"), std::string::npos);
+}
+
+TEST(View, SectionsTakeSidesAwayAndMoveWithTheTransformsAroundThem) {
+  const auto section = [](const std::string& text) { return model_of(text + " cube();").section; };
+  EXPECT_EQ(section("section();"), (std::vector<SectionCut>{{{{{0, -1, 0}, std::nullopt}}}}));
+  EXPECT_EQ(section("section([1, 0, 0], 5);"), (std::vector<SectionCut>{{{{{1, 0, 0}, 5}}}}));
+  EXPECT_EQ(section("section([1, 0, 0], 5); section([0, 1, 0]);").size(), 2u);
+  EXPECT_EQ(section("section(planes = [[1, 0, 0, 5], [0, 1, 0]]);"),
+            (std::vector<SectionCut>{{{{{1, 0, 0}, 5}, {{0, 1, 0}, std::nullopt}}}}));
+  // The same plane, whatever the length of its normal has become: x > 2 turned to y > 2, moved by 3, twice as large.
+  const SectionPlane moved = section("scale(2) translate([0, 3, 0]) rotate(90) section([1, 0, 0], 2);")[0].planes[0];
+  EXPECT_NEAR(moved.normal.x, 0, 1e-15);
+  EXPECT_GT(moved.normal.y, 0);
+  EXPECT_DOUBLE_EQ(*moved.d / moved.normal.y, 10);
+  EXPECT_NE(error_of("section([0, 0, 0], 1);").find("not be zero"), std::string::npos);
+  EXPECT_NE(error_of("section(planes = [[1, 0]]);").find("list of planes"), std::string::npos);
+  EXPECT_NE(error_of("section(planes = []);").find("list of planes"), std::string::npos);
+  EXPECT_NE(error_of("section([1, 0, 0], planes = [[1, 0, 0, 2]]);").find("one of the two"), std::string::npos);
 }
 
 TEST(View, MovesWithTheTransformsAroundIt) {

@@ -9,6 +9,7 @@ TEST(PrintCsg, ReadsBackToTheSameText) {
   const std::string text = tree_of(
       "camera(from = [1, 2, 3.3], at = [0, 0, 1 / 3], orthographic = 7); light(type = \"directional\", direction = [1, "
       "0, -1]);"
+      "section([1, 0, 1 / 3], 0.1); section(planes = [[0, 1, 0], [0, 0, -1, 4]]);"
       "background([0.1, 0.2, 0.3, 0.5]); ambient(\"grey\");"
       "material(\"odd \\\"name\\\" \\\\\", kd = 1 / 3, ks = 2 / 3, ka = 0.7, color = [0.1, 0.2, 0.3, 0.4]) "
       "difference() {"
@@ -17,8 +18,15 @@ TEST(PrintCsg, ReadsBackToTheSameText) {
       "  prism([[[0, 0], [1 / 3, 0, 1 / 7], [0, 1]], [[2, 0, 1], [3, 0, 1]]], h = 2, scale = 0.5);"
       "  revolution([[[1, 0], [2, 0, 0.1], [1, 1]]]);"
       "  paraboloid(); intersection() { halfspace([1, 2, 3], 0.1); complement() sphere(9, $fn = 5); }"
+      "  cut_faces(\"base\") cube(7); cut_faces(\"tool\") cube(8);"
       "}");
   EXPECT_EQ(text.find("error"), std::string::npos) << text;
+  EXPECT_EQ(tree_of(text), text);
+}
+
+TEST(PrintCsg, ALensReadsBackToTheSameText) {
+  const std::string text = tree_of("camera(from = [1, 2, 3], fstop = 2.8, focus = [0, 0, 0.1]); cube();");
+  EXPECT_NE(text.find("aperture = "), std::string::npos) << text;
   EXPECT_EQ(tree_of(text), text);
 }
 

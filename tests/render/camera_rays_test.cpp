@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -62,6 +63,46 @@ TEST(CameraRays, OrthographicCoversItsWidth) {
   EXPECT_EQ(rays->ray(13, 57).direction, (Vec3{0, 1, 0}));
 }
 
+// At distance z a lens of diameter A that is sharp at distance f spreads a place of the picture over a disc of diameter
+// A |z - f| / f, evenly; drawn on the plane that is sharp that is the circle of confusion, A |z - f| / z.
+TEST(CameraRays, ALensBlursByTheCircleOfConfusion) {
+  Camera camera = looking({0, -20, 0}, {0, 0, 0});
+  camera.aperture = 3;
+  camera.focus = 8;
+  const auto rays = CameraRays::create(camera, 300, 200);
+  ASSERT_TRUE(rays.ok());
+  ASSERT_TRUE(rays->has_lens());
+  const Ray center = rays->ray(40, 170);
+  constexpr int n = 64;
+  for (const double z : {2.0, 8.0, 30.0}) {
+    const auto at = [&](const Ray& ray) { return ray.at((z - (ray.origin.y + 20)) / ray.direction.y); };
+    const double radius = 0.5 * 3 * std::fabs(z - 8) / 8;
+    double farthest = 0, mean_square = 0;
+    Vec3 mean;
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) {
+        const Ray ray = rays->ray(40, 170, (i + 0.5) / n, (j + 0.5) / n);
+        EXPECT_NEAR(length(ray.direction), 1, 1e-12);
+        const Vec3 off = at(ray) - at(center);
+        farthest = std::max(farthest, length(off));
+        mean_square += dot(off, off) / (n * n);
+        mean += off / (n * n);
+      }
+    }
+    EXPECT_LE(farthest, radius + 1e-9) << z;
+    EXPECT_GE(farthest, 0.97 * radius) << z;
+    EXPECT_NEAR(mean_square, radius * radius / 2, 0.01 * radius * radius + 1e-20) << "evenly over the disc";
+    EXPECT_NEAR(length(mean), 0, 1e-9);
+  }
+}
+
+TEST(CameraRays, WithoutALensEveryPlaceOfItIsThePoint) {
+  const auto rays = CameraRays::create(looking({0, -5, 0}, {0, 0, 0}), 30, 20);
+  EXPECT_FALSE(rays->has_lens());
+  EXPECT_EQ(rays->ray(3, 4, 0.1, 0.9).origin, rays->ray(3, 4).origin);
+  EXPECT_EQ(rays->ray(3, 4, 0.1, 0.9).direction, rays->ray(3, 4).direction);
+}
+
 TEST(CameraRays, UpAlongTheViewIsReplaced) {
   const auto above = CameraRays::create(looking({0, 0, 5}, {0, 0, 0}), 100, 100);
   ASSERT_TRUE(above.ok());
@@ -89,6 +130,17 @@ TEST(CameraRays, ImpossibleCamerasAreErrors) {
     camera.fov = fov;
     EXPECT_FALSE(CameraRays::create(camera, 10, 10).ok()) << fov;
   }
+  Camera lens = looking({0, -5, 0}, {0, 0, 0});
+  lens.aperture = 1;
+  EXPECT_TRUE(CameraRays::create(lens, 10, 10).ok());
+  lens.focus = -1;
+  EXPECT_FALSE(CameraRays::create(lens, 10, 10).ok());
+  lens.focus = 1;
+  lens.aperture = -1;
+  EXPECT_FALSE(CameraRays::create(lens, 10, 10).ok());
+  lens.aperture = 1;
+  lens.projection = Projection::orthographic;
+  EXPECT_FALSE(CameraRays::create(lens, 10, 10).ok());
   for (double width : {0.0, -3.0, std::numeric_limits<double>::infinity()}) {
     Camera camera;
     camera.projection = Projection::orthographic;

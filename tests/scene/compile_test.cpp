@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "csg/csg_tree.h"
 #include "support/scene_builder.h"
 #include "tenon/scene/scene.h"
@@ -41,6 +43,21 @@ TEST(CompileScene, RefusesASceneWithoutSolids) {
   const Result<Scene> scene = compile_scene(std::move(model), diagnostics);
   ASSERT_FALSE(scene.ok());
   EXPECT_EQ(scene.error().kind, ErrorKind::input);
+}
+
+TEST(CompileScene, SaysThatOperationsLeaveNothing) {
+  for (const bool apart : {true, false}) {
+    SceneBuilder b;
+    Model model;
+    const SceneNodeId ball = b.sphere(1), other = b.translate({apart ? 5.0 : 0.5, 0, 0}, b.sphere(1));
+    model.graph = b.finish(b.intersect({ball, other}));
+    Diagnostics diagnostics;
+    const Result<Scene> scene = compile_scene(std::move(model), diagnostics);
+    ASSERT_TRUE(scene.ok());
+    EXPECT_EQ(diagnostics.warnings().size(), apart ? 1u : 0u);
+    EXPECT_TRUE(std::isfinite(length(scene->camera.from))) << "something to look from";
+    EXPECT_NE(scene->camera.from, scene->camera.at);
+  }
 }
 
 TEST(CompileScene, TheNearestMaterialApplies) {
@@ -132,6 +149,33 @@ TEST(CompileScene, ACutFaceShowsTheToolsMaterialOnlyIfItHasOne) {
   };
   EXPECT_EQ(cut_face(true), "tool");
   EXPECT_EQ(cut_face(false), "base");
+}
+
+TEST(CompileScene, ACutFaceShowsTheBaseWhereItIsAskedTo) {
+  // Two bases side by side, one tool through both; the nearest attribute counts, and only for what is subtracted.
+  const auto shown = [](const char* spec, std::optional<CutFaces> around, std::optional<CutFaces> at_tool) {
+    SceneBuilder b;
+    const SceneNodeId bases = b.unite({b.material(0, b.cube({2, 2, 2})), b.material(1, b.box({2, 0, 0}, {4, 2, 2}))});
+    SceneNodeId tool = b.material(2, b.box({0.5, 0.5, 1}, {3.5, 1.5, 3}));
+    if (at_tool) tool = b.cut_faces(*at_tool, tool);
+    SceneNodeId solid = b.subtract({bases, tool});
+    if (around) solid = b.cut_faces(*around, solid);
+    const Scene scene = compile(b, solid, {named("left"), named("right"), named("tool")});
+    fixtures::Tracer tracer(*scene.tree, spec);
+    std::string all;
+    for (const double x : {1.0, 3.0}) {
+      all += scene.material(tracer.first_hit({{x, 1, 5}, {0, 0, -1}}).material).name + ' ';
+    }
+    // Beside the cut the base's own face.
+    return all + scene.material(tracer.first_hit({{0.2, 1, 5}, {0, 0, -1}}).material).name;
+  };
+  for (const char* spec : {"none", "cells", "okd"}) {
+    EXPECT_EQ(shown(spec, {}, {}), "tool tool left");
+    EXPECT_EQ(shown(spec, CutFaces::base, {}), "left right left");
+    EXPECT_EQ(shown(spec, {}, CutFaces::base), "left right left");
+    EXPECT_EQ(shown(spec, CutFaces::base, CutFaces::tool), "tool tool left");
+    EXPECT_EQ(shown(spec, CutFaces::tool, CutFaces::base), "left right left");
+  }
 }
 
 TEST(SceneFigures, CountsWhatWasModelled) {

@@ -47,6 +47,8 @@ class SceneBuilder {
   SceneNodeId color(const Rgba& tint, SceneNodeId c) { return graph_.add({ColorAttribute{tint}, {c}}); }
   SceneNodeId material(std::size_t id, SceneNodeId c) { return graph_.add({MaterialAttribute{MaterialId{id}}, {c}}); }
 
+  SceneNodeId cut_faces(CutFaces show, SceneNodeId c) { return graph_.add({CutFacesAttribute{show}, {c}}); }
+
   SceneGraph finish(SceneNodeId root) {
     graph_.root = root;
     return std::move(graph_);

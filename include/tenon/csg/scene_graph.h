@@ -33,6 +33,17 @@ struct MaterialAttribute {
   MaterialId material;
 };
 
+/// Whose material the faces show that a subtracted solid leaves in another.
+enum class CutFaces {
+  tool,  ///< the subtracted solid's, where it was given one; else as `base`
+  base,  ///< that of the solid that was cut
+};
+
+/// The one nearest to a subtracted primitive applies; CutFaces::tool where there is none.
+struct CutFacesAttribute {
+  CutFaces show = CutFaces::tool;
+};
+
 /// A leaf.
 struct PrimitiveLeaf {
   PrimitiveId primitive;
@@ -40,7 +51,7 @@ struct PrimitiveLeaf {
 
 /// A node of the semantic scene graph (Zajíček 2012, §1.2.2): operations, attributes, primitives.
 struct SceneNode {
-  std::variant<SetOperation, Transform, ColorAttribute, MaterialAttribute, PrimitiveLeaf> content =
+  std::variant<SetOperation, Transform, ColorAttribute, MaterialAttribute, CutFacesAttribute, PrimitiveLeaf> content =
       SetOperation::union_;
   std::vector<SceneNodeId> children;  ///< empty for a leaf; a node may be the child of several parents
 };

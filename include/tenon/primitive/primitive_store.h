@@ -55,7 +55,9 @@ struct PrimitiveKind {
 class PrimitiveStore {
  public:
   PrimitiveStore();
+  PrimitiveStore(const PrimitiveStore&);
   PrimitiveStore(PrimitiveStore&&) noexcept;
+  PrimitiveStore& operator=(const PrimitiveStore&) = delete;
   PrimitiveStore& operator=(PrimitiveStore&&) noexcept;
   ~PrimitiveStore();
 

@@ -18,15 +18,27 @@ class CameraRays {
 
   /// The ray through a place of the picture, in pixels from its upper left corner: the centre of the first pixel is
   /// (0.5, 0.5). The direction has length 1, so t is a distance.
+  /// Of a lens it is the ray through the centre.
   Ray ray(double x, double y) const;
+
+  /// Whether rays start all over a lens.
+  bool has_lens() const { return lens_radius_ > 0; }
+
+  /// The ray through a place of the picture and one of the lens (its centre where there is none), both rays through a
+  /// place of the picture meeting where it is sharp.
+  /// @param u  with v a place in the unit square, which is spread evenly over the lens
+  Ray ray(double x, double y, double u, double v) const;
 
   /// What a structure may be built for (build_accelerator).
   const ScreenView& view() const { return view_; }
 
  private:
-  explicit CameraRays(const ScreenView& view) : view_(view) {}
+  CameraRays(const ScreenView& view, double lens_radius, double focus)
+      : view_(view), lens_radius_(lens_radius), focus_(focus) {}
 
   ScreenView view_;
+  double lens_radius_;
+  double focus_;  // distance along the view
 };
 
 }  // namespace tenon

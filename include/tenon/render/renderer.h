@@ -10,6 +10,7 @@
 #include "tenon/base/statistics.h"
 #include "tenon/film/film.h"
 #include "tenon/film/film_part.h"
+#include "tenon/render/hatch.h"
 #include "tenon/render/progress.h"
 #include "tenon/scene/scene.h"
 
@@ -38,6 +39,7 @@ struct RenderOptions {
   int depth = 8;                            ///< levels of the tree of rays; 1: no reflected and refracted rays
   double threshold = invisible_share(8);    ///< whitted: rays whose cumulative product is no larger are not traced
   std::uint64_t seed = 0;                   ///< path: of everything drawn at random
+  std::optional<HatchOptions> hatch;        ///< lines across the cut faces of a section view
   bool transparent = false;                 ///< the background is left out, and alpha says how much of a pixel it fills
   Layers layers;                            ///< what the film keeps beside the colour
   double noise = 0;    ///< tiles get no more samples once their noise() is no more than this; 0: all get all samples

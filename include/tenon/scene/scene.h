@@ -30,10 +30,11 @@ struct Scene {
   Material default_material;        ///< where Hit::material is none
   std::vector<Light> lights;
   Camera camera;
-  Rgb background;                 ///< linear
-  bool shows_environment = true;  ///< behind everything stands an environment light, when there is one
-  Rgb ambient;                    ///< linear; Ia of the course
-  LeafId first_section_plane;     ///< this leaf and all behind it are planes of the section view; none without
+  Rgb background;                        ///< linear
+  bool shows_environment = true;         ///< behind everything stands an environment light, when there is one
+  Rgb ambient;                           ///< linear; Ia of the course
+  std::shared_ptr<const CsgTree> whole;  ///< the tree without its cuts, where these keep their light; else none
+  LeafId first_section_plane;            ///< this leaf and all behind it are planes of the section view; none without
   std::vector<Medium> media = std::vector<Medium>(2);  ///< indexed by MediumId; outside and opaque: nothing
 
   const Material& material(MaterialId id) const { return id ? materials[id.get()] : default_material; }

@@ -16,9 +16,13 @@ struct ViewAngles {
 struct ViewRequest {
   std::optional<Camera> camera;      ///< none: the file's; where that has none either, one is chosen
   std::optional<ViewAngles> angles;  ///< look from there, at the whole solid
-  bool fit = false;           ///< move the camera, along its direction and across, until the solid fills the picture
-  bool orthographic = false;  ///< parallel rays, covering what the camera sees at the point it looks at
-  double aspect = 4.0 / 3;    ///< width of the picture over its height
+  bool fit = false;  ///< move the camera, along its direction and across, until the solid fills the picture
+  std::optional<double> aperture;   ///< of the camera's lens (Camera::aperture)
+  std::optional<double> focus;      ///< Camera::focus
+  std::optional<Vec3> focus_point;  ///< a point that is sharp, in place of `focus`
+  bool keeps_light = false;         ///< what a section view takes away still casts its shadows
+  bool orthographic = false;        ///< parallel rays, covering what the camera sees at the point it looks at
+  double aspect = 4.0 / 3;          ///< width of the picture over its height
 };
 
 }  // namespace tenon

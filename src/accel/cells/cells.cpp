@@ -138,7 +138,7 @@ class Cells final : public Accelerator {
     const std::uint32_t owner = cells_.cells[answer.cell].owner;
     Run run;
     if (answer.run != CellAnswer::no_run) run = context.scratch.runs[answer.run];
-    if (!leaf.material) {
+    if (!leaf.material || leaf.shows_what_it_cut) {
       if (owner == cells::Owner::varies) return false;
       if (owner != cells::Owner::nobody) run.owner = LeafId{owner};
     }
