@@ -9,7 +9,7 @@
 namespace tenon {
 
 /// Lights for a scene that names none: a key and a fill light that stand where the camera does, so that whatever side
-/// is shown is lit well.
+/// is shown is lit well, and a weaker one beside the eye.
 std::vector<Light> default_lights(const Box3& bounds, const Camera& camera);
 
 }  // namespace tenon
