@@ -135,18 +135,19 @@ class Pusher {
     tree_.nodes.push_back(node);
   }
 
-  // Under an odd number of complements, a difference's second operand being one.
-  bool is_subtracted() const {
-    bool subtracted = false;
-    for (const Frame& frame : frames_) {
+  // How many complements stand above, a difference's second operand being one.
+  std::size_t complements_above() const {
+    return static_cast<std::size_t>(std::count_if(frames_.begin(), frames_.end(), [](const Frame& frame) {
       const auto* operation = std::get_if<SetOperation>(&frame.node->content);
-      if (operation == nullptr) continue;
+      if (operation == nullptr) return false;
       // The child being visited is the one before next_child.
       const bool is_tool = *operation == SetOperation::difference && frame.next_child > 1;
-      subtracted ^= is_tool || *operation == SetOperation::complement;
-    }
-    return subtracted;
+      return is_tool || *operation == SetOperation::complement;
+    }));
   }
+  bool is_subtracted() const { return complements_above() % 2 == 1; }
+  // What is taken out of a tool leaves its faces where the tool cuts, too.
+  bool is_part_of_tool() const { return complements_above() > 0; }
 
   void add_leaf(PrimitiveId primitive) {
     const Attributes& attributes = attributes_.back();
@@ -166,7 +167,7 @@ class Pusher {
     tree_.nodes.push_back(node);
     Leaf leaf{primitive, *placement,          world_bounds(store, primitive, *placement),
               node_id,   attributes.material, attributes.color};
-    leaf.shows_what_it_cut = attributes.cut_faces == CutFaces::base && is_subtracted();
+    leaf.shows_what_it_cut = attributes.cut_faces == CutFaces::base && is_part_of_tool();
     tree_.leaves.push_back(leaf);
   }
 

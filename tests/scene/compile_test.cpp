@@ -178,6 +178,20 @@ TEST(CompileScene, ACutFaceShowsTheBaseWhereItIsAskedTo) {
   }
 }
 
+// A sharpener is all but a cone: the faces that it leaves are the cone's, which it does not hold.
+TEST(CompileScene, WhatIsTakenOutOfAToolIsPartOfIt) {
+  for (const CutFaces show : {CutFaces::tool, CutFaces::base}) {
+    SceneBuilder b;
+    const SceneNodeId base = b.material(0, b.cube({2, 2, 2}, true));
+    const SceneNodeId tool = b.material(1, b.subtract({b.cube({9, 9, 9}, true), b.sphere(1.2)}));
+    const Scene scene = compile(b, b.cut_faces(show, b.subtract({base, tool})), {named("base"), named("tool")});
+    fixtures::Tracer tracer(*scene.tree, "cells");
+    const Hit rounded = tracer.first_hit({{5, 5, 5}, {-1, -1, -1}});
+    EXPECT_NEAR(length(rounded.point), 1.2, 1e-9);
+    EXPECT_EQ(scene.material(rounded.material).name, show == CutFaces::base ? "base" : "tool");
+  }
+}
+
 TEST(SceneFigures, CountsWhatWasModelled) {
   SceneBuilder b;
   const Scene scene = compile(b, b.subtract({b.cube({2, 2, 2}), b.unite({b.sphere(1), b.sphere(0.5)})}));
