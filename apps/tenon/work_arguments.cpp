@@ -12,6 +12,8 @@ namespace {
 
 // What a pixel gets at most when a noise target or the clock is to end the work.
 constexpr std::uint32_t open_ended_samples = 65536;
+// Smooth edges, and still at once.
+constexpr std::uint32_t usual_samples = 4;
 
 std::optional<std::vector<int>> parse_integers(std::string_view text, char separator) {
   std::vector<int> numbers;
@@ -60,7 +62,7 @@ Status read_samples(const std::string& text, RenderOptions& options) {
 void WorkArguments::add_to(CLI::App& command) {
   command
       .add_option("--spp", samples_per_pixel,
-                  "Samples for each pixel; 1: its centre. Otherwise 1; with --noise or --time at most 65536")
+                  "Samples for each pixel; 1: its centre. Otherwise 4; with --noise or --time at most 65536")
       ->type_name("N")
       ->check(CLI::Range(1U, most_samples).description("1 to " + std::to_string(most_samples)));
   command
@@ -107,7 +109,7 @@ Status plan_work(const WorkArguments& arguments, RenderOptions& options) {
   const bool open_ended = arguments.noise > 0 || arguments.seconds > 0;
   options.samples = arguments.samples_per_pixel != 0 ? arguments.samples_per_pixel
                     : open_ended                     ? open_ended_samples
-                                                     : 1;
+                                                     : usual_samples;
   options.noise = arguments.noise;
   options.seconds = arguments.seconds;
   if (!arguments.crop.empty()) {

@@ -71,7 +71,7 @@ TEST_F(Usage, ErrorsSayWhatIsWrongAndWriteNothing) {
       {{"render", "a.scad", "--crop", "1,2,3"}, "--crop takes x0,y0,x1,y1"},
       {{"render", "a.scad", "--crop", "0,0,641,10"}, "within 640x480"},
       {{"render", "a.scad", "--crop", "9,9,9,10"}, "--crop"},
-      {{"render", "a.scad", "--samples", "0:2"}, "of the 1 that --spp asks for"},
+      {{"render", "a.scad", "--samples", "0:9"}, "of the 4 that --spp asks for"},
       {{"render", "a.scad", "--spp", "4", "--samples", "2:2"}, "--samples"},
       {{"render", "a.scad", "--spp", "4", "--samples", "0:2", "--noise", "0.1"}, "--crop in place of --samples"},
       {{"render", "a.scad", "--resume"}, "--checkpoint"},
