@@ -82,6 +82,19 @@ TEST(MinimumEnclosure, AToolIsCutToTheMinuendAndNotTheOtherWayRound) {
   expect_near(minimum[1], {3, 3, 3}, {4, 4, 4});
 }
 
+TEST(MinimumEnclosure, ASubtractedHalfSpaceAlongAnAxisCutsTheMinuend) {
+  const auto enclosure = [](const Vec3& normal, double d) {
+    SceneBuilder b;
+    const SceneNodeId half_space = b.primitive("halfspace", {normal, d});
+    const CsgTree tree = b.tree(b.subtract({b.box({0, 0, 0}, {4, 4, 4}), half_space}));
+    return node_enclosures(tree)[tree.root.get()];
+  };
+  expect_near(enclosure({0, 0, -2}, -2), {0, 0, 0}, {4, 4, 1});
+  expect_near(enclosure({1, 0, 0}, 3), {3, 0, 0}, {4, 4, 4});
+  expect_near(enclosure({1, 1, 0}, 3), {0, 0, 0}, {4, 4, 4});
+  EXPECT_TRUE(enclosure({1, 0, 0}, 5).is_empty());
+}
+
 TEST(MinimumEnclosure, AUnionCutsNothing) {
   SceneBuilder b;
   const CsgTree tree = b.tree(b.unite({b.box({0, 0, 0}, {1, 1, 1}), b.box({5, 5, 5}, {6, 6, 6})}));
