@@ -45,6 +45,30 @@ module prism(outline, h = 1, center = false, scale = 1)
 // An outline turned around z.
 module revolution(outline) rotate_extrude() tenon_outline(outline);
 
+// A sphere with a semi-axis for each of x, y and z.
+module ellipsoid(r = [1, 1, 1]) scale(r) sphere(1);
+
+// Between an ellipse at the origin and one at the end of the axis h, a height or a vector. Here it has 64 sides.
+module truncated_cone(h = 1, a1 = 1, b1 = 0.5, a2 = 0.5, b2 = 1) {
+  n = 64;
+  top = is_num(h) ? [0, 0, h] : h;
+  function ring(a, b, at) = [for (i = [0:n - 1]) at + [a * cos(360 * i / n), b * sin(360 * i / n), 0]];
+  polyhedron(concat(ring(a1, b1, [0, 0, 0]), ring(a2, b2, top)), concat(
+    [[for (i = [0:n - 1]) i]], [[for (i = [0:n - 1]) 2 * n - 1 - i]],
+    [for (i = [0:n - 1], j = [(i + 1) % n]) each [[i, n + i, j], [j, n + i, n + j]]]));
+}
+
+// The solid of eight vertices: four around one face, and the four opposite to them.
+module arb8(points)
+  polyhedron(points, [[0, 1, 2, 3], [7, 6, 5, 4], [4, 5, 1, 0], [5, 6, 2, 1], [6, 7, 3, 2], [7, 4, 0, 3]]);
+
+// OpenSCAD has nothing for surfaces that polynomials and patches describe, nor for surfaces without inside.
+module tenon_missing(name) echo(str(name, "() is left out here; Tenon shows it"));
+module quadric(coefficients, box) tenon_missing("quadric");
+module algebraic(terms, box, isolation, refinement) tenon_missing("algebraic");
+module polygon3d(points, normals, method) tenon_missing("polygon3d");
+module bicubic(points, basis, bias, tension, method, size, steps, hull) tenon_missing("bicubic");
+
 // The points p with normal * p <= d.
 module halfspace(normal = [0, 0, 1], d = 0) {
   length = norm(normal);

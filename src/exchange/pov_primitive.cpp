@@ -1,5 +1,6 @@
 #include "exchange/pov_primitive.h"
 
+#include <algorithm>
 #include <map>
 #include <string_view>
 #include <vector>
@@ -75,6 +76,45 @@ void print_paraboloid(const Fields& f, PovText& out) {
   print_quadric(0, -r * r / h, 0, {-r, -r, -h}, {r, r, h}, out);
 }
 
+void print_quadric_in_box(const Fields& f, PovText& out) {
+  const auto& q = f.get<QuadricCoefficients>("coefficients");
+  const Box3& box = f.get<Box3>("box");
+  if (box.is_bounded()) out << "intersection { box { " << box.lower << ", " << box.upper << " } ";
+  out << "quadric { " << Vec3{q[0], q[1], q[2]} << ", " << Vec3{q[3], q[4], q[5]} << ", " << Vec3{q[6], q[7], q[8]}
+      << ", " << q[9];
+  if (box.is_bounded()) out << " }";
+}
+
+// POV-Ray wants all coefficients up to the degree, by falling powers of x, then of y, then of z.
+void print_algebraic(const Fields& f, PovText& out) {
+  const auto& terms = f.get<PolynomialTerms>("terms");
+  int degree = 2;
+  for (const PolynomialTerm& t : terms) degree = std::max(degree, t.i + t.j + t.k);
+  const Box3& box = f.get<Box3>("box");
+  out << "intersection { box { " << box.lower << ", " << box.upper << " } poly { " << degree << ", <";
+  for (int i = degree; i >= 0; --i) {
+    for (int j = degree - i; j >= 0; --j) {
+      for (int k = degree - i - j; k >= 0; --k) {
+        double a = 0;
+        for (const PolynomialTerm& t : terms) a += t.i == i && t.j == j && t.k == k ? t.a : 0;
+        out << a << (i + j + k > 0 ? ", " : "> sturm }");
+      }
+    }
+  }
+}
+
+// Each loop ends with its first corner again.
+void print_polygon(const Fields& f, PovText& out) {
+  const auto& loops = f.get<PointLists>("points");
+  std::size_t count = 0;
+  for (const std::vector<Vec3>& loop : loops) count += loop.size() + 1;
+  out << "polygon { " << static_cast<double>(count);
+  for (const std::vector<Vec3>& loop : loops) {
+    for (const Vec3& p : loop) out << ", " << p;
+    out << ", " << loop.front();
+  }
+}
+
 void print_plane(const Vec3& normal, double d, PovText& out) {
   const double size = length(normal);
   out << "plane { " << normal / size << ", " << d / size;
@@ -105,10 +145,16 @@ bool print_pov_primitive(const PrimitiveStore& store, PrimitiveId id, PovText& o
       {"hyperboloid", print_hyperboloid},
       {"paraboloid", print_paraboloid},
       {"halfspace", print_half_space},
-      {"convex_polyhedron", print_convex_polyhedron}};
+      {"convex_polyhedron", print_convex_polyhedron},
+      {"quadric", print_quadric_in_box},
+      {"algebraic", print_algebraic},
+      {"polygon3d", print_polygon}};
   const auto found = printers.find(store.kind(id).name);
   if (found == printers.end()) return false;
-  found->second(Fields(store, id), out);
+  const Fields fields(store, id);
+  // POV-Ray's polygons are shaded flat.
+  if (found->first == "polygon3d" && !fields.get<PointLists>("normals").empty()) return false;
+  found->second(fields, out);
   return true;
 }
 

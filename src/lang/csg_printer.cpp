@@ -266,12 +266,30 @@ class CsgPrinter {
   }
   void print(bool value) { out_ += value ? "true" : "false"; }
   void print(const Vec3& v) { numbers(std::array{v.x, v.y, v.z}); }
-  void print(const std::vector<Plane>& planes) {
+  template <class T>
+  void print(const std::vector<T>& items) {
     out_ += '[';
-    for (std::size_t i = 0; i < planes.size(); ++i) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
       if (i > 0) out_ += ", ";
-      numbers(std::array{planes[i].normal.x, planes[i].normal.y, planes[i].normal.z, planes[i].d});
+      print(items[i]);
     }
+    out_ += ']';
+  }
+  void print(const Plane& p) { numbers(std::array{p.normal.x, p.normal.y, p.normal.z, p.d}); }
+  void print(const PolynomialTerm& t) {
+    numbers(std::array{static_cast<double>(t.i), static_cast<double>(t.j), static_cast<double>(t.k), t.a});
+  }
+  void print(const QuadricCoefficients& coefficients) { numbers(coefficients); }
+  void print(const Choice& choice) { print(std::string(choice.name())); }
+  void print(const Box3& box) {
+    if (!box.is_bounded()) {
+      out_ += "undef";
+      return;
+    }
+    out_ += '[';
+    print(box.lower);
+    out_ += ", ";
+    print(box.upper);
     out_ += ']';
   }
   void print(const Outline& outline) {

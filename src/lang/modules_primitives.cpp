@@ -1,15 +1,20 @@
+#include <algorithm>
 #include <cmath>
 
 #include "lang/facets.h"
 #include "lang/failure.h"
+#include "lang/field_arguments.h"
 #include "lang/format.h"
 #include "lang/polyhedron.h"
 #include "lang/primitive_arguments.h"
 #include "mesh/build_mesh.h"
+#include "primitive/flatness.h"
 
 namespace tenon::lang {
 
 namespace {
+
+using Faces = std::vector<std::vector<std::size_t>>;
 
 Solid make_polyhedron(ModuleCall& call, std::vector<Plane> planes) {
   return make_primitive(call, "convex_polyhedron", {FieldValue(std::move(planes))});
@@ -62,25 +67,25 @@ std::optional<Solid> cylinder(ModuleCall& call) {
 }
 
 // Points as a list of vectors; fails where it is none.
-std::vector<Vec3> require_points(const ModuleArguments& arguments, std::size_t index) {
+std::vector<Vec3> require_points(const ModuleArguments& arguments, std::size_t index, const std::string& module) {
   const List* list = arguments[index].list();
-  if (!list) fail(arguments.at(index), "polyhedron() needs 'points', a list of [x, y, z]");
+  if (!list) fail(arguments.at(index), module + "() needs 'points', a list of [x, y, z]");
   std::vector<Vec3> points;
   for (const Value& item : list->items()) {
     const auto point = to_vec3(item);
     if (!point) {
       fail(arguments.at(index),
-           "point " + std::to_string(points.size()) + " of the polyhedron is no list of three finite numbers");
+           "point " + std::to_string(points.size()) + " of " + module + "() is no list of three finite numbers");
     }
     points.push_back(*point);
   }
   return points;
 }
 
-std::vector<std::vector<std::size_t>> require_faces(const ModuleArguments& arguments, std::size_t index) {
+Faces require_faces(const ModuleArguments& arguments, std::size_t index) {
   const List* list = arguments[index].list();
   if (!list) fail(arguments.at(index), "polyhedron() needs 'faces', a list of lists of indices into 'points'");
-  std::vector<std::vector<std::size_t>> faces;
+  Faces faces;
   for (const Value& item : list->items()) {
     std::vector<std::size_t>& face = faces.emplace_back();
     const List* corners = item.list();
@@ -99,7 +104,7 @@ std::vector<std::vector<std::size_t>> require_faces(const ModuleArguments& argum
 
 constexpr std::size_t most_planes = 32;
 
-PolygonSoup soup_of(const std::vector<Vec3>& points, const std::vector<std::vector<std::size_t>>& faces) {
+PolygonSoup soup_of(const std::vector<Vec3>& points, const Faces& faces) {
   PolygonSoup soup;
   soup.points = points;
   for (const std::vector<std::size_t>& face : faces) {
@@ -115,13 +120,7 @@ std::optional<Solid> make_mesh(ModuleCall& call, const PolygonSoup& soup) {
   return make_primitive(call, "mesh", {std::make_shared<const TriangleMesh>(std::move(built->mesh)), false});
 }
 
-std::optional<Solid> polyhedron(ModuleCall& call) {
-  constexpr std::string_view names[] = {"points", "faces", "convexity", "triangles"};
-  const ModuleArguments arguments(call, names, UnknownArgument::warn);
-  const std::vector<Vec3> points = require_points(arguments, 0);
-  const bool old = !arguments.given(1) && arguments.given(3);
-  if (old) call.evaluator.environment().warn(arguments.at(3), "'triangles' is deprecated; write 'faces'");
-  const std::vector<std::vector<std::size_t>> faces = require_faces(arguments, old ? 3 : 1);
+std::optional<Solid> polyhedron_of(ModuleCall& call, const std::vector<Vec3>& points, const Faces& faces) {
   auto result = planes_of(points, faces);
   const auto* planes = std::get_if<0>(&result);
   const bool is_general = !planes && std::get<1>(result).is_general;
@@ -135,56 +134,94 @@ std::optional<Solid> polyhedron(ModuleCall& call) {
   return make_polyhedron(call, std::get<0>(std::move(result)));
 }
 
-std::vector<Plane> require_planes(const ModuleArguments& arguments, std::size_t index, std::string_view name) {
-  const std::string message =
-      "'" + std::string(name) + "' must be a list of planes [nx, ny, nz, d], where n.p <= d inside";
-  const List* list = arguments[index].list();
-  if (!list) fail(arguments.at(index), message);
-  std::vector<Plane> planes;
-  for (const Value& item : list->items()) {
-    double numbers[4] = {};
-    const List* plane = item.list();
-    if (!plane || plane->items().size() != 4) fail(arguments.at(index), message);
-    for (std::size_t i = 0; i < 4; ++i) {
-      const double* number = plane->items()[i].number();
-      if (!number || !std::isfinite(*number)) fail(arguments.at(index), message);
-      numbers[i] = *number;
-    }
-    planes.push_back({{numbers[0], numbers[1], numbers[2]}, numbers[3]});
-  }
-  return planes;
+std::optional<Solid> polyhedron(ModuleCall& call) {
+  constexpr std::string_view names[] = {"points", "faces", "convexity", "triangles"};
+  const ModuleArguments arguments(call, names, UnknownArgument::warn);
+  const std::vector<Vec3> points = require_points(arguments, 0, "polyhedron");
+  const bool old = !arguments.given(1) && arguments.given(3);
+  if (old) call.evaluator.environment().warn(arguments.at(3), "'triangles' is deprecated; write 'faces'");
+  return polyhedron_of(call, points, require_faces(arguments, old ? 3 : 1));
 }
 
-Outline require_outline(const ModuleArguments& arguments, std::size_t index, std::string_view name) {
-  const std::string message = "'" + std::string(name) +
-                              "' must be a list of loops, each a list of corners [x, y] or [x, y, bulge], where the "
-                              "bulge of an arc to the next corner is the tangent of a quarter of its angle";
-  const List* list = arguments[index].list();
-  if (!list) fail(arguments.at(index), message);
-  Outline outline;
-  for (const Value& item : list->items()) {
-    const List* corners = item.list();
-    if (!corners) fail(arguments.at(index), message);
-    auto& loop = outline.loops.emplace_back();
-    for (const Value& corner : corners->items()) {
-      const auto numbers = to_vec3(corner, 0);
-      if (!numbers) fail(arguments.at(index), message);
-      loop.push_back({numbers->x, numbers->y, numbers->z});
+// The faces of eight vertices, those without a corner of their own left out. Fails where one is not flat.
+Faces faces_of_arb8(const std::vector<Vec3>& points, Place at) {
+  constexpr std::size_t corners[6][4] = {{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                         {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  Faces faces;
+  for (const auto& quad : corners) {
+    std::vector<std::size_t> face;
+    std::vector<Vec3> loop;
+    for (const std::size_t i : quad) {
+      // Vertices in one place are one.
+      const auto first = static_cast<std::size_t>(std::find(points.begin(), points.end(), points[i]) - points.begin());
+      if (std::find(face.begin(), face.end(), first) != face.end()) continue;
+      face.push_back(first);
+      loop.push_back(points[first]);
     }
+    if (face.size() < 3) continue;
+    if (const auto bent = find_deviation({&loop, 1})) {
+      std::string names;
+      for (const std::size_t i : quad) names += (names.empty() ? "" : ", ") + std::to_string(i);
+      fail(at, "arb8() with the face of points " + names + " is not flat: they deviate from a plane by " +
+                   format_number(*bent) + "; move one of them, or use polyhedron() with triangles");
+    }
+    faces.push_back(std::move(face));
   }
-  return outline;
+  return faces;
 }
 
-// The value of a field, of the type of its fallback.
-FieldValue require_field(const ModuleArguments& arguments, std::size_t index, const FieldInfo& field) {
-  if (!arguments.given(index)) return field.fallback;
-  if (std::holds_alternative<double>(field.fallback)) return require_number(arguments, index, field.name);
-  if (std::holds_alternative<Vec3>(field.fallback)) return require_vec3(arguments, index, field.name);
-  if (std::holds_alternative<std::vector<Plane>>(field.fallback)) return require_planes(arguments, index, field.name);
-  if (std::holds_alternative<Outline>(field.fallback)) return require_outline(arguments, index, field.name);
-  const bool* truth = arguments[index].boolean();
-  if (!truth) fail(arguments.at(index), "'" + std::string(field.name) + "' must be true or false");
-  return *truth;
+std::optional<Solid> arb8(ModuleCall& call) {
+  constexpr std::string_view names[] = {"points"};
+  const ModuleArguments arguments(call, names, UnknownArgument::fail);
+  const std::vector<Vec3> points = require_points(arguments, 0, "arb8");
+  if (points.size() != 8) {
+    fail(arguments.at(0), "arb8() needs eight points, four around one face and the four opposite; these are " +
+                              std::to_string(points.size()));
+  }
+  return polyhedron_of(call, points, faces_of_arb8(points, arguments.at(0)));
+}
+
+// A sphere, stretched.
+std::optional<Solid> ellipsoid(ModuleCall& call) {
+  constexpr std::string_view names[] = {"r"};
+  const ModuleArguments arguments(call, names, UnknownArgument::fail);
+  const Vec3 r = arguments.given(0) ? require_vec3(arguments, 0, "r") : Vec3{1, 1, 1};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (r[axis] > 0) continue;
+    call.evaluator.environment().warn(call.at(),
+                                      "ellipsoid with a semi-axis of " + format_number(r[axis]) + " has no volume");
+    return Solid::nothing();
+  }
+  return call.evaluator.builder().wrap(Transform{Affine3::scale(r)}, {make_primitive(call, "sphere", {1.0})});
+}
+
+// Of ellipses in the same proportions a cone or cylinder, stretched; where its axis leans, sheared.
+std::optional<Solid> truncated_cone(ModuleCall& call) {
+  constexpr std::string_view names[] = {"h", "a1", "b1", "a2", "b2"};
+  const ModuleArguments arguments(call, names, UnknownArgument::fail);
+  Vec3 axis{0, 0, 1};
+  if (arguments.given(0)) {
+    axis = arguments[0].number() ? Vec3{0, 0, require_number(arguments, 0, "h")} : require_vec3(arguments, 0, "h");
+  }
+  const PrimitiveKind& kind = *PrimitiveStore::find_kind("truncated_cone");
+  double radii[4];
+  for (std::size_t i = 0; i < 4; ++i) radii[i] = std::get<double>(require_field(arguments, i + 1, kind.fields[i + 1]));
+  const auto [a1, b1, a2, b2] = radii;
+
+  const double a = std::fmax(a1, a2), b = std::fmax(b1, b2);
+  const bool proportional = a1 * b2 == a2 * b1 && a > 0 && b > 0 && axis.z > 0;
+  Affine3 map;
+  Solid solid;
+  if (proportional) {
+    map = Affine3::scale({1, b / a, 1});
+    solid = a1 == a2 ? make_primitive(call, "cylinder", {axis.z, a1, false})
+                     : make_primitive(call, "cone", {axis.z, a1, a2, false});
+  } else {
+    solid = make_primitive(call, kind.name, {axis.z, a1, b1, a2, b2});
+  }
+  map.m[0][2] = axis.x / axis.z;
+  map.m[1][2] = axis.y / axis.z;
+  return map == Affine3{} ? solid : call.evaluator.builder().wrap(Transform{map}, {solid});
 }
 
 // Tenon's own primitives: their parameters are the fields of their kinds.
@@ -210,6 +247,9 @@ void add_primitive_modules(BuiltinModuleTable& table, SymbolTable& symbols) {
   table.emplace(symbols.intern("sphere"), sphere);
   table.emplace(symbols.intern("cylinder"), cylinder);
   table.emplace(symbols.intern("polyhedron"), polyhedron);
+  table.emplace(symbols.intern("arb8"), arb8);
+  table.emplace(symbols.intern("ellipsoid"), ellipsoid);
+  table.emplace(symbols.intern("truncated_cone"), truncated_cone);
   for (const PrimitiveKind& kind : PrimitiveStore::kinds()) {
     table.emplace(symbols.intern(kind.scad_name), primitive_of_kind);
   }

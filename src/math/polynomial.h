@@ -55,13 +55,22 @@ class ShortList {
   std::size_t size_ = 0;
 };
 
-/// The place between a and b where f changes its sign, to the last bit of the larger end: Newton's method, kept inside
-/// the bracket by bisection, and given up for bisection alone where it converges slowly (multiple roots).
+/// Newton's next guess for a zero of f near t.
+struct NewtonStep {
+  template <class F>
+  double operator()(const F& f, double t, double value) const {
+    return t - value / f.slope(t);
+  }
+};
+
+/// The place between a and b where f changes its sign, to the last bit of the larger end: by an iterative method, kept
+/// inside the bracket by bisection, and given up for bisection alone where it converges slowly (multiple roots).
 ///
-/// @param f      has value(t) and slope(t)
+/// @param f      has value(t), and what the method asks for
 /// @param value_a, value_b  of opposite sense: exactly one of them is < 0
-template <class F>
-double find_sign_change(const F& f, double a, double b, double value_a, double value_b) {
+/// @param next_guess  the method: the next guess, from f, the last one and the value there
+template <class F, class Step = NewtonStep>
+double find_sign_change(const F& f, double a, double b, double value_a, double value_b, Step next_guess = {}) {
   const bool rising = value_a < 0;
   const double last_bit = unit_roundoff * std::max(std::fabs(a), std::fabs(b));
   // Newton doubles the number of right bits with each step: 53 = 2^6 bits, and as many steps to get near.
@@ -75,7 +84,7 @@ double find_sign_change(const F& f, double a, double b, double value_a, double v
     const double value = f.value(t);
     if (value == 0) return t;
     ((value < 0) == rising ? a : b) = t;
-    const double next = t - value / f.slope(t);
+    const double next = next_guess(f, t, value);
     if (std::fabs(next - t) <= last_bit) return t;
     t = step < newton_steps ? next : 0.5 * a + 0.5 * b;
   }
@@ -127,6 +136,44 @@ struct CrossingRoot : BoundedRoot {
   bool rising = false;
 };
 
+/// The nearest place beyond t, in one direction, where the sign of f is certain (|f| > error) and, up to the next
+/// turning point, the expected one: t itself may be off the zero of f by its last bit.
+///
+/// @param distance  where to look first; it is doubled until the place is found
+/// @param limit     no further than here
+/// @param splits    turning points of f
+template <class F>
+double find_certain_place(const F& f, double t, double distance, double direction, double limit, bool negative,
+                          std::span<const double> splits) {
+  for (;;) {
+    const double at = t + direction * distance;
+    if (!((limit - at) * direction > 0)) return limit;
+    // The turning points are the most certain places around; do not step over one.
+    bool passed_turn = false;
+    for (const double split : splits) {
+      const bool between = direction > 0 ? split > t && split < at : split < t && split > at;
+      if (between && std::fabs(f.value(split)) > f.error(split)) return split;
+      passed_turn = passed_turn || between;
+    }
+    const double value = f.value(at);
+    if (std::fabs(value) > f.error(at) && (passed_turn || (value < 0) == negative)) return at;
+    distance *= 2;
+  }
+}
+
+/// How far from a root at t the sign of f should be certain, by its slope and its curvature there.
+/// @param span  of the interval that is searched
+template <class F>
+double distance_to_certainty(const F& f, double t, double span) {
+  // The errors double to make the first place certain: f grows by slope * distance, or by its curvature.
+  const double error = 2 * f.error(t);
+  const double by_slope = error / std::fabs(f.slope(t));
+  const double by_curvature = std::sqrt(error / std::fabs(f.half_curvature(t)));
+  const double distance = std::min(by_slope, by_curvature);
+  const double least = 2 * unit_roundoff * std::max(std::fabs(t), unit_roundoff * span);
+  return distance > least && std::isfinite(distance) ? distance : least;
+}
+
 /// All real roots between two places of a function f that is known to within an error.
 ///
 /// @param f       has value(t), slope(t), half_curvature(t) (half the second derivative) and error(t), which bounds
@@ -142,37 +189,12 @@ struct CrossingRoot : BoundedRoot {
 template <class F, int Capacity>
 void find_bounded_roots(const F& f, std::span<const double> splits, ShortList<CrossingRoot, Capacity>& roots) {
   const double begin = splits.front(), end = splits.back();
-
-  // The nearest certain place beyond t in one direction, starting at a distance that should do. Up to the next turning
-  // point the sign there has to be the expected one: t itself may be off the zero of f by its last bit.
-  const auto reach_from = [&](double t, double distance, double direction, double limit, bool negative) {
-    for (;;) {
-      const double at = t + direction * distance;
-      if (!((limit - at) * direction > 0)) return limit;
-      // The turning points are the most certain places around; do not step over one.
-      bool passed_turn = false;
-      for (const double split : splits) {
-        const bool between = direction > 0 ? split > t && split < at : split < t && split > at;
-        if (between && std::fabs(f.value(split)) > f.error(split)) return split;
-        passed_turn = passed_turn || between;
-      }
-      const double value = f.value(at);
-      if (std::fabs(value) > f.error(at) && (passed_turn || (value < 0) == negative)) return at;
-      distance *= 2;
-    }
-  };
   const auto add = [&](double t, bool rising) {
-    // The errors double to make the first place certain: f grows by slope * distance, or by its curvature.
-    const double error = 2 * f.error(t);
-    const double by_slope = error / std::fabs(f.slope(t));
-    const double by_curvature = std::sqrt(error / std::fabs(f.half_curvature(t)));
-    double distance = std::min(by_slope, by_curvature);
-    const double least = 2 * unit_roundoff * std::max(std::fabs(t), unit_roundoff * (end - begin));
-    if (!(distance > least) || !std::isfinite(distance)) distance = least;
+    const double distance = distance_to_certainty(f, t, end - begin);
     CrossingRoot root;
     root.t = t;
-    root.lo = reach_from(t, distance, -1, begin, rising);
-    root.hi = reach_from(t, distance, 1, end, !rising);
+    root.lo = find_certain_place(f, t, distance, -1, begin, rising, splits);
+    root.hi = find_certain_place(f, t, distance, 1, end, !rising, splits);
     root.rising = rising;
     roots.push_back(root);
   };

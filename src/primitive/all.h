@@ -1,5 +1,7 @@
 #pragma once
 
+#include "primitive/algebraic.h"
+#include "primitive/bicubic.h"
 #include "primitive/box.h"
 #include "primitive/cone.h"
 #include "primitive/convex_polyhedron.h"
@@ -8,10 +10,13 @@
 #include "primitive/hyperboloid.h"
 #include "primitive/mesh.h"
 #include "primitive/paraboloid.h"
+#include "primitive/polygon3d.h"
 #include "primitive/prism.h"
+#include "primitive/quadric.h"
 #include "primitive/revolution.h"
 #include "primitive/sphere.h"
 #include "primitive/torus.h"
+#include "primitive/truncated_cone.h"
 
 namespace tenon {
 
@@ -19,7 +24,8 @@ template <SolidPrimitive... P>
 struct PrimitiveList {};
 
 /// Every kind of primitive, in the order of PrimitiveStore::kinds(). For the dispatch unit and the store only.
-using AllPrimitives = PrimitiveList<Sphere, Box, Cylinder, Cone, Torus, Hyperboloid, Paraboloid, HalfSpace,
-                                    ConvexPolyhedron, Prism, Revolution, Mesh>;
+using AllPrimitives =
+    PrimitiveList<Sphere, Box, Cylinder, Cone, Torus, Hyperboloid, Paraboloid, HalfSpace, ConvexPolyhedron, Prism,
+                  Revolution, Mesh, Quadric, TruncatedCone, Algebraic, Polygon3d, Bicubic>;
 
 }  // namespace tenon

@@ -4,9 +4,9 @@
 #include <string_view>
 #include <tuple>
 
+#include "primitive/box_clip.h"
 #include "primitive/box_tests.h"
 #include "primitive/check.h"
-#include "primitive/clip.h"
 #include "primitive/concept.h"
 
 namespace tenon {
@@ -32,19 +32,12 @@ struct Box {
   Vec3 lower() const { return center ? size * -0.5 : Vec3{}; }
   Vec3 upper() const { return center ? size * 0.5 : size; }
 
-  double support(const Vec3& n) const {
-    const Vec3 low = n * lower(), high = n * upper();
-    return std::max(low.x, high.x) + std::max(low.y, high.y) + std::max(low.z, high.z);
-  }
+  double support(const Vec3& n) const { return box_support({lower(), upper()}, n); }
 
   /// Faces: 2 axis for the lower one, 2 axis + 1 for the upper.
   void spans(const LocalRay& ray, Spans& out) const {
     Chord chord;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto face = static_cast<std::uint32_t>(2 * axis);
-      if (!clip_slab(ray, axis, lower()[axis], upper()[axis], face, face + 1, chord)) return;
-    }
-    emit_chord(chord, out);
+    if (clip_box(ray, {lower(), upper()}, 0, chord)) emit_chord(chord, out);
   }
 
   Region classify(const LocalBox& box) const {
@@ -54,11 +47,7 @@ struct Box {
     return is_separated_by_box_faces(box, *this) ? Region::outside : Region::straddles;
   }
 
-  Vec3 normal(const Vec3&, std::uint32_t face) const {
-    Vec3 n;
-    n[static_cast<int>(face / 2)] = face % 2 == 0 ? -1 : 1;
-    return n;
-  }
+  Vec3 normal(const Vec3&, std::uint32_t face) const { return box_face_normal(face); }
 };
 
 }  // namespace tenon

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "tenon/math/box3.h"
+
 namespace tenon {
 
 /// Sizes within which no product of four of them overflows or underflows.
@@ -39,6 +41,18 @@ inline std::string check_lengths(std::string_view kind, std::initializer_list<Na
     if (length.value > largest_size) return problem("is too large to compute with; sizes end at 1e60");
   }
   return {};
+}
+
+/// Why a box that clips a primitive will not do. Empty when it does.
+inline std::string check_box(std::string_view kind, const Box3& box) {
+  if (!box.is_bounded()) return std::string(kind) + " needs a box to end in, [[x, y, z], [x, y, z]]";
+  const Vec3 size = box.size();
+  if (std::string problem =
+          check_lengths(kind, {{"box.size.x", size.x}, {"box.size.y", size.y}, {"box.size.z", size.z}});
+      !problem.empty()) {
+    return problem;
+  }
+  return check_lengths(kind, {{"|box|", box.largest_coordinate()}});
 }
 
 }  // namespace tenon

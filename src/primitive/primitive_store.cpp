@@ -8,8 +8,9 @@ namespace {
 
 template <class P>
 PrimitiveKind describe() {
-  PrimitiveKind kind{P::name, P::scad_name, P::doc, P::bounded, {}};
   const P fallback{};
+  PrimitiveKind kind{P::name, P::scad_name, P::doc, P::bounded, false, {}};
+  if constexpr (requires { fallback.hull; }) kind.surface = fallback.hull;
   const auto add = [&](const auto& field) {
     kind.fields.push_back({field.name, field.unit, FieldValue(fallback.*field.member), field.doc});
   };

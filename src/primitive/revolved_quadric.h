@@ -8,6 +8,7 @@
 #include "primitive/box_tests.h"
 #include "primitive/clip.h"
 #include "primitive/local_ray.h"
+#include "primitive/polish_root.h"
 
 namespace tenon {
 
@@ -30,23 +31,23 @@ struct RevolvedQuadric {
 
   Vec3 gradient(const Vec3& p) const { return {2 * p.x, 2 * p.y, -2 * (offset + slope * p.z) * slope - linear}; }
 
- private:
-  // q along the line, expanded at t: q(t + s) = a s² + 2 b s + c, and what the terms were before they cancelled.
+  /// q along the line, expanded at t: q(t + s) = a s² + 2 b s + c, and what the terms were before they cancelled.
   struct Expansion {
     double a, b, c;
     double a_size, b_size, c_size;
-    Vec3 place;         // the line at t
-    double w, w_slope;  // w there, and along the line
-    Vec3 place_error;   // bound on the error of the place within `reach` of t = 0
-    double w_error;     // and of w
+    Vec3 place;         ///< the line at t
+    double w, w_slope;  ///< w there, and along the line
+    Vec3 place_error;   ///< bound on the error of the place within `reach` of t = 0
+    double w_error;     ///< and of w
   };
   Expansion expand(const LocalRay& ray, double t, double reach) const;
+  /// Bound on |q* - q| within `away` of the expansion point.
   double error_at(const Expansion& e, double away) const;
 
+ private:
   bool find_window(const LocalRay& ray, const Chord& chord, double& begin, double& end) const;
   QuadraticSet solve(const LocalRay& ray, double begin, double end) const;
   QuadraticSet solve_from_surface(const LocalRay& ray) const;
-  void polish(const LocalRay& ray, BoundedRoot& root) const;
 };
 
 inline RevolvedQuadric::Expansion RevolvedQuadric::expand(const LocalRay& ray, double t, double reach) const {
@@ -73,8 +74,8 @@ inline RevolvedQuadric::Expansion RevolvedQuadric::expand(const LocalRay& ray, d
   return e;
 }
 
-// Bound on |q* - q| within `away` of the expansion point: each square u² is off by 2 |u| e + e², the linear term by its
-// own, and the coefficients by the rounding of their sums (and that of linear and constant, at most six).
+// Each square u² is off by 2 |u| e + e², the linear term by its own, and the coefficients by the rounding of their sums
+// (and that of linear and constant, at most six).
 inline double RevolvedQuadric::error_at(const Expansion& e, double away) const {
   const double rounding = e.c_size + away * (2 * e.b_size + away * e.a_size);
   const double across = 2 * std::sqrt(e.c_size + away * (2 * e.b_size + away * e.a_size));
@@ -146,27 +147,6 @@ inline QuadraticSet RevolvedQuadric::solve_from_surface(const LocalRay& ray) con
   return other.t >= 0 ? QuadraticSet{shape, here, other} : QuadraticSet{shape, other, here};
 }
 
-// Narrows the interval of a simple root with the errors of its own place: near the tip of a cone they are much smaller
-// than those of the whole window.
-//
-// Expand at the root: one Newton step s = -c / 2b leaves a residual of a s², and within β of there q* has the sign of
-// ±2 b β as soon as 2 |b| β > error + |a| (|s| + β)². Since (|s| + β)² <= 2 s² + 2 β², and with |a| β <= |b| / 8,
-// β = (error + 2 |a| s²) / (1.75 |b|) will do.
-inline void RevolvedQuadric::polish(const LocalRay& ray, BoundedRoot& root) const {
-  const double away = std::max(root.hi - root.t, root.t - root.lo);
-  if (!(std::isfinite(root.t) && std::isfinite(away) && away > 0)) return;
-  const Expansion e = expand(ray, root.t, std::fabs(root.t) + away);
-  const double slope_here = std::fabs(e.b);
-  const double step = -e.c / (2 * e.b);
-  const double bound = (error_at(e, away) + 2 * std::fabs(e.a) * step * step) / (1.75 * slope_here);
-  const double t = root.t + step;
-  if (!(std::fabs(e.a) * bound <= slope_here / 8) || !(std::fabs(step) <= away) || !(bound < away)) return;
-  const double total = bound + gamma(3) * std::fabs(t);
-  root.t = t;
-  root.lo = std::max(root.lo, t - total);
-  root.hi = std::min(root.hi, t + total);
-}
-
 inline void RevolvedQuadric::spans(const LocalRay& ray, Spans& out) const {
   using Shape = QuadraticSet::Shape;
   Chord slab;
@@ -182,7 +162,7 @@ inline void RevolvedQuadric::spans(const LocalRay& ray, Spans& out) const {
     return;
   }
   for (BoundedRoot* root : {&set.first, &set.second}) {
-    if (root->lo <= end && root->hi >= begin) polish(ray, *root);
+    if (root->lo <= end && root->hi >= begin) polish_root(*this, ray, *root);
   }
   // Of the two roots of a ray that starts on the side, one is the start.
   const auto end_of = [from_side](const BoundedRoot& root) {

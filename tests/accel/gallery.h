@@ -162,6 +162,56 @@ inline CsgTree outlines_scene() {
                          b.translate({0, 2.5, 0}, b.rotate({30, 0, 0}, wheel))}));
 }
 
+/// Solids of polynomials, patches that close one, and surfaces, cutting one another and cut by the simple ones.
+inline CsgTree surfaces_scene() {
+  SceneBuilder b;
+  const auto with = [&](std::string_view name, const std::vector<std::pair<std::size_t, FieldValue>>& given) {
+    const PrimitiveKind& kind = *PrimitiveStore::find_kind(name);
+    std::vector<FieldValue> values;
+    for (const FieldInfo& field : kind.fields) values.push_back(field.fallback);
+    for (const auto& [i, value] : given) values[i] = value;
+    return b.primitive(name, values);
+  };
+  const auto choice = [](std::string_view name, std::size_t field, std::uint8_t index) {
+    Choice c = std::get<Choice>(PrimitiveStore::find_kind(name)->fields[field].fallback);
+    c.index = index;
+    return c;
+  };
+  // A torus, a surface with a double point, and their like by the other methods.
+  const PolynomialTerms torus{{4, 0, 0, 1}, {0, 4, 0, 1},    {0, 0, 4, 1},    {2, 2, 0, 2},    {2, 0, 2, 2},
+                              {0, 2, 2, 2}, {2, 0, 0, -1.5}, {0, 2, 0, -1.5}, {0, 0, 2, 0.75}, {0, 0, 0, 0.25}};
+  const PolynomialTerms cayley{{2, 0, 0, 4}, {0, 2, 0, 4}, {0, 0, 2, 4}, {1, 1, 1, 16}, {0, 0, 0, -1}};
+  const Box3 around{{-1.3, -1.3, -1.3}, {1.3, 1.3, 1.3}};
+  const SceneNodeId ring = with("algebraic", {{0, torus}, {1, around}});
+  const SceneNodeId nodes = with("algebraic", {{0, cayley}, {1, around}, {2, choice("algebraic", 2, 1)}});
+  const SceneNodeId saddle = with("quadric", {{0, QuadricCoefficients{1, -1, 0, 0, 0, 0, 0, 0, -1, 0}}, {1, around}});
+  const SceneNodeId beyond = with("quadric", {{0, QuadricCoefficients{1, 1, -0.25, 0, 0, 0, 0, 0, 0, -0.04}}});
+  const SceneNodeId chisel = with("truncated_cone", {{0, 1.0}, {1, 0.8}, {2, 0.4}, {3, 0.1}, {4, 0.9}});
+  const SceneNodeId sheet = with("bicubic", {});
+  PointLists net;
+  for (std::size_t i = 0; i < 8; ++i) {
+    auto& row = net.emplace_back();
+    for (std::size_t j = 0; j < 7; ++j) {
+      const double angle = 72.0 * static_cast<double>(i % 5), tilt = 90.0 * static_cast<double>(j % 4);
+      const double r = 1 + 0.6 * cos_degrees(tilt);
+      row.push_back({r * cos_degrees(angle), r * sin_degrees(angle), 0.6 * sin_degrees(tilt)});
+    }
+  }
+  const SceneNodeId patches =
+      with("bicubic", {{0, ControlNets{net}}, {1, choice("bicubic", 1, 1)}, {7, FieldValue(false)}});
+  const SceneNodeId window = with("polygon3d", {{0, PointLists{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}},
+                                                               {{-0.5, -0.5, 0}, {0, 0.5, 0}, {0.5, -0.5, 0}}}},
+                                                {2, choice("polygon3d", 2, 1)}});
+  return b.tree(
+      b.unite({b.subtract({ring, b.cube({1, 1, 1})}),
+               b.translate({3, 0, 0}, b.subtract({b.intersect({nodes, b.sphere(1.2)}), beyond})),
+               b.translate({0, 3, 0}, b.subtract({b.intersect({saddle, b.sphere(1)}), b.cylinder(1, 0.3)})),
+               b.translate({3, 3, -0.5}, b.subtract({chisel, b.rotate({0, 30, 0}, b.cube({2, 0.4, 0.4}, true))})),
+               b.translate({0, 0, 2}, b.subtract({patches, b.sphere(1), ring})),
+               b.translate({3, 0, 2}, b.subtract({b.scale(0.6, sheet), b.sphere(0.5)})),
+               b.translate({3, 3, 2}, b.subtract({window, b.rotate({0, 0, 30}, chisel)}))}));
+}
+
 inline CsgTree lattice_scene(std::uint64_t seed, const Vec3& degrees) {
   SceneBuilder b;
   return b.tree(b.rotate(degrees, lattice_node(b, seed)));
@@ -200,6 +250,7 @@ inline constexpr Scene scenes[] = {
     {"media_lattice", [] { return media_scene(10, true); }},
     {"room", room_scene},
     {"outlines", outlines_scene},
+    {"surfaces", surfaces_scene},
     {"one",
      [] {
        SceneBuilder b;

@@ -5,6 +5,7 @@
 
 #include "support/meshes.h"
 #include "support/random_outline.h"
+#include "support/random_polynomials.h"
 #include "support/scene_builder.h"
 
 namespace tenon::fixtures {
@@ -47,6 +48,14 @@ inline FieldValue random_value(Draw& draw, const FieldInfo& field) {
     Random random(static_cast<std::uint64_t>(draw.below(1 << 30)));
     return RandomOutline(random, 0.7).draw();
   }
+  if (const auto* choice = std::get_if<Choice>(&field.fallback)) {
+    return Choice{static_cast<std::uint8_t>(draw.below(static_cast<int>(choice->names.size()))), choice->names};
+  }
+  Random random(static_cast<std::uint64_t>(draw.below(1 << 30)));
+  RandomPolynomials polynomials(random, 1);
+  if (std::holds_alternative<Box3>(field.fallback)) return polynomials.box();
+  if (std::holds_alternative<QuadricCoefficients>(field.fallback)) return polynomials.quadric();
+  if (std::holds_alternative<PolynomialTerms>(field.fallback)) return polynomials.terms();
   // A box with its corners cut, which is bounded whatever the cuts.
   std::vector<Plane> planes{{{1, 0, 0}, 1},  {{-1, 0, 0}, 1}, {{0, 1, 0}, 1},
                             {{0, -1, 0}, 1}, {{0, 0, 1}, 1},  {{0, 0, -1}, 1}};
@@ -59,7 +68,7 @@ inline SceneNodeId random_primitive(Draw& draw, SceneBuilder& b, bool may_be_unb
   const auto kinds = PrimitiveStore::kinds();
   for (;;) {
     const PrimitiveKind& kind = kinds[static_cast<std::size_t>(draw.below(static_cast<int>(kinds.size())))];
-    if (!kind.bounded && !(may_be_unbounded && draw.one_in(3))) continue;
+    if (kind.surface || (!kind.bounded && !(may_be_unbounded && draw.one_in(3)))) continue;
     std::vector<FieldValue> values;
     for (const FieldInfo& field : kind.fields) values.push_back(random_value(draw, field));
     const auto id = b.try_primitive(kind, values);

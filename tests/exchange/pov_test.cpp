@@ -68,6 +68,18 @@ const std::map<std::string, std::string> scenes{
     {"paraboloid", "clay() rotate([140, 20, 0]) paraboloid(h = 1.5, r = 1); floor();"},
     {"halfspace", "clay() intersection() { sphere(1.2); halfspace(normal = [2, -2, 1], d = 0.9); } floor();"},
     {"convex_polyhedron", "clay() rotate([0, 0, 20]) cylinder(h = 1.5, r = 1, $fn = 5); floor();"},
+    {"quadric",
+     "clay() rotate([0, 30, 0]) quadric([1, 2, -1, 0.5, 0, 0.25, 0, 0.125, 0, -0.5], box = [[-1, -1, -1], [1, 1, "
+     "1.2]]);"
+     " floor();"},
+    {"quadric_unbounded",
+     "clay() intersection() { quadric([1, 1, -0.5, 0, 0, 0, 0, 0, 0, -0.2]); sphere(1.5); } floor();"},
+    {"algebraic",
+     "clay() rotate([20, 0, 30]) algebraic([[4, 0, 0, 1], [0, 4, 0, 1], [0, 0, 4, 1], [0, 0, 0, -1]],"
+     " box = [[-1.1, -1.1, -1.1], [0.8, 1.1, 1.1]]); floor();"},
+    {"polygon3d",
+     "clay() rotate([20, 0, 30]) polygon3d([[[-1, -1, 0], [1, -1, 0], [1, 1, 1], [-1, 1, 1]],"
+     " [[-0.5, -0.5, 0.25], [0.5, -0.5, 0.25], [0, 0.5, 0.75]]]); floor();"},
     {"complement", "clay() intersection() { cube(1.6, center = true); complement() sphere(1); } floor();"},
     {"mirrored", "clay() mirror([1, 0.3, 0]) difference() { cube(1); translate([1, 1, 1]) sphere(0.6); } floor();"},
     {"difference",
@@ -96,6 +108,8 @@ TEST(Pov, EveryPrimitiveIsWrittenOrRefusedByName) {
   const std::map<std::string, std::string> refused{
       {"prism", "linear_extrude(2) polygon([[0, 0], [2, 0], [1, 0.5], [0, 2]]);"},
       {"revolution", "rotate_extrude() translate([2, 0]) circle(1);"},
+      {"truncated_cone", "truncated_cone(h = 2, a1 = 1, b1 = 0.5, a2 = 0.5, b2 = 1);"},
+      {"bicubic", "bicubic([for (y = [0 : 3]) [for (x = [0 : 3]) [x, y, x == 0 || x == 3 ? 0 : 1]]]);"},
       {"mesh",
        "polyhedron([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4], [0.5, 0.5, 0.5]],"
        " [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 4], [3, 2, 4], [2, 1, 4]]);"}};

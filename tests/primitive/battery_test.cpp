@@ -184,6 +184,7 @@ TEST_P(Battery, NormalsAreGradients) {
       const Vec3 n1 = normalize(g), n2 = normalize(normal(solid.store, solid.id, p, c.face));
       const double bend = length(p) * 1e-12 / solid.size;
       const bool at_tip =
+          g == Vec3{} ||
           length(
               definition.gradient(Vec<Quad>(p + 1e-6 * solid.size * n1), c.face, Quad(solid.size) * 0x1p-40).rounded() -
               g) > 0.1 * length(g);
@@ -197,6 +198,8 @@ TEST_P(Battery, NormalsAreGradients) {
 // The largest n·p over the crossings of many rays: never above the support, and near it.
 TEST_P(Battery, SupportIsTheLargestExtent) {
   Random random(seed());
+  const bool clips = std::any_of(kind().fields.begin(), kind().fields.end(),
+                                 [](const FieldInfo& f) { return std::holds_alternative<Box3>(f.fallback); });
   for (int n = 0; n < 20; ++n) {
     const RandomSolid solid(kind(), random);
     std::vector<Vec3> points;
@@ -218,7 +221,8 @@ TEST_P(Battery, SupportIsTheLargestExtent) {
       for (const Vec3& p : points) largest = std::max(largest, dot(direction, p));
       const double width = dot(abs(direction), e);
       EXPECT_LE(largest, s + 1e-12 * width + 1e-13 * std::fabs(s)) << describe(solid.values);
-      if (kind().bounded) {
+      // A box that clips is more than what it leaves.
+      if (kind().bounded && !clips) {
         EXPECT_GT(largest, s - 0.15 * width) << describe(direction, e) << describe(solid.values);
       }
     }

@@ -138,6 +138,18 @@ inline std::string describe(const std::vector<FieldValue>& values) {
         text << '}';
       }
     }
+    if (const auto* choice = std::get_if<Choice>(&value)) text << ' ' << choice->name();
+    if (const auto* box = std::get_if<Box3>(&value)) {
+      text << "\n  {{" << box->lower.x << ", " << box->lower.y << ", " << box->lower.z << "}, {" << box->upper.x << ", "
+           << box->upper.y << ", " << box->upper.z << "}}";
+    }
+    if (const auto* coefficients = std::get_if<QuadricCoefficients>(&value)) {
+      for (const double c : *coefficients) text << ' ' << c << ',';
+    }
+    if (const auto* terms = std::get_if<PolynomialTerms>(&value)) {
+      for (const PolynomialTerm& t : *terms)
+        text << "\n  {" << t.i << ", " << t.j << ", " << t.k << ", " << t.a << "},";
+    }
     if (const auto* mesh = std::get_if<SharedMesh>(&value)) {
       for (const Vec3& v : (*mesh)->vertices) text << "\n  {" << v.x << ", " << v.y << ", " << v.z << "},";
       for (const auto& [a, b, c] : (*mesh)->triangles) text << " {" << a << ", " << b << ", " << c << "},";

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <string_view>
 #include <vector>
@@ -86,6 +88,44 @@ struct Definitions {
   static void convex_polyhedron(const Values& v, const Vec<T>& p, Faces<T>& f) {
     for (const Plane& plane : std::get<std::vector<Plane>>(v[0]))
       f.push_back(dot(Vec<T>(plane.normal), p) - T(plane.d));
+  }
+
+  static void within(Faces<T>& f, const Vec<T>& p, const Box3& box) {
+    between(f, p.x, T(box.lower.x), T(box.upper.x));
+    between(f, p.y, T(box.lower.y), T(box.upper.y));
+    between(f, p.z, T(box.lower.z), T(box.upper.z));
+  }
+  static void quadric(const Values& v, const Vec<T>& p, Faces<T>& f) {
+    const auto& q = std::get<QuadricCoefficients>(v[0]);
+    f.push_back(q[0] * p.x * p.x + q[1] * p.y * p.y + q[2] * p.z * p.z + q[3] * p.x * p.y + q[4] * p.x * p.z +
+                q[5] * p.y * p.z + q[6] * p.x + q[7] * p.y + q[8] * p.z + q[9]);
+    const Box3& box = std::get<Box3>(v[1]);
+    if (box.is_bounded()) within(f, p, box);
+  }
+  static void truncated_cone(const Values& v, const Vec<T>& p, Faces<T>& f) {
+    const T h = number(v, 0), z = p.z / h;
+    const T a = number(v, 1) + z * (T(number(v, 3)) - number(v, 1));
+    const T b = number(v, 2) + z * (T(number(v, 4)) - number(v, 2));
+    f.push_back(p.x * p.x * b * b + p.y * p.y * a * a - a * a * b * b);
+    const T x = std::max(number(v, 1), number(v, 3)), y = std::max(number(v, 2), number(v, 4));
+    between(f, p.x, -x, x);
+    between(f, p.y, -y, y);
+    between(f, p.z, T(0), h);
+  }
+  static std::array<T, 13> powers(T x) {
+    std::array<T, 13> all{1};
+    for (std::size_t n = 1; n < all.size(); ++n) all[n] = all[n - 1] * x;
+    return all;
+  }
+  static void algebraic(const Values& v, const Vec<T>& p, Faces<T>& f) {
+    const std::array<T, 13> x = powers(p.x), y = powers(p.y), z = powers(p.z);
+    T sum = 0;
+    for (const PolynomialTerm& t : std::get<PolynomialTerms>(v[0])) {
+      sum +=
+          t.a * x[static_cast<std::size_t>(t.i)] * y[static_cast<std::size_t>(t.j)] * z[static_cast<std::size_t>(t.k)];
+    }
+    f.push_back(sum);
+    within(f, p, std::get<Box3>(v[1]));
   }
 
   // q of an edge of an outline: zero on its line or circle, growing to the right.
@@ -203,6 +243,9 @@ struct Definitions {
         {"prism", prism},
         {"revolution", revolution},
         {"mesh", mesh},
+        {"quadric", quadric},
+        {"truncated_cone", truncated_cone},
+        {"algebraic", algebraic},
     };
     const auto found = all.find(kind);
     return found == all.end() ? nullptr : found->second;

@@ -57,7 +57,8 @@ TEST_P(Placed, CrossingsAgreeWithTheExactMap) {
       for (const Crossing& c : out) {
         if (!kind().bounded || c.bound > 0.1 * solid.size / length(d)) continue;
         const double slack = (c.bound + 1e-15 * std::fabs(c.t)) * length(ray.direction) + 1e-15 * length(ray.origin);
-        EXPECT_TRUE(grown(bounds, slack).contains(ray.at(c.t))) << describe(ray.origin, ray.direction);
+        EXPECT_TRUE(grown(bounds, slack).contains(ray.at(c.t)))
+            << describe(out) << describe(ray.origin, ray.direction) << describe(solid.values);
       }
     }
   }

@@ -10,8 +10,11 @@
 
 #include "tenon/base/error.h"
 #include "tenon/base/id.h"
+#include "tenon/math/box3.h"
 #include "tenon/math/vec3.h"
+#include "tenon/primitive/choice.h"
 #include "tenon/primitive/outline.h"
+#include "tenon/primitive/polynomial_terms.h"
 #include "tenon/primitive/triangle_mesh.h"
 
 namespace tenon {
@@ -31,8 +34,14 @@ struct Plane {
 /// Shared by every primitive that is made of it, and never null in one.
 using SharedMesh = std::shared_ptr<const TriangleMesh>;
 
+/// Loops of corners, or rows of control points.
+using PointLists = std::vector<std::vector<Vec3>>;
+/// Nets of control points, each a list of rows.
+using ControlNets = std::vector<PointLists>;
+
 /// The value of one field of a primitive.
-using FieldValue = std::variant<double, bool, Vec3, std::vector<Plane>, Outline, SharedMesh>;
+using FieldValue = std::variant<double, bool, Vec3, std::vector<Plane>, Outline, SharedMesh, Choice, Box3,
+                                QuadricCoefficients, PolynomialTerms, PointLists, ControlNets>;
 
 /// One parameter of a primitive: parser, printer and documentation derive from it.
 struct FieldInfo {
@@ -47,7 +56,8 @@ struct PrimitiveKind {
   std::string_view name;       ///< "sphere", "cone", ...: what statistics and hits print
   std::string_view scad_name;  ///< the module of the scene language that makes it, with these fields as arguments
   std::string_view doc;
-  bool bounded = true;  ///< false for half-spaces
+  bool bounded = true;   ///< false for half-spaces
+  bool surface = false;  ///< made as a surface, without inside, unless a field says that it is closed
   std::vector<FieldInfo> fields;
 };
 
