@@ -8,12 +8,12 @@ function difference_of_squares(p, q) = sum([scaled(golden * golden, square(p)), 
 planes = times(difference_of_squares(X, Y), times(difference_of_squares(Y, Z), difference_of_squares(Z, X)));
 ball = square(sum([R2, constant(-1)]));
 
-material("amber", model = "whitted", kd = 0.84, ks = 0.16, shininess = 100, color = [0.90, 0.58, 0.16])
+material("amber", model = "phong", kd = 0.78, ks = 0.22, shininess = 60, color = [0.90, 0.56, 0.14])
   rotate([0, 0, 8]) intersection() {
-    algebraic(sum([scaled(4, planes), scaled(-1 - 2 * golden, ball)]), box = cube_of(1.8));
-    sphere(1.75);
+    algebraic(sum([scaled(-4, planes), scaled(1 + 2 * golden, ball)]), box = cube_of(2.2));
+    sphere(2.1);
   }
 
-ground(-1.76);
+ground(-2.15);
 studio_lights();
-camera(from = [3.9, -6.4, 3.2], at = [0, 0, 0], fov = 36);
+camera(from = [3.9, -6.6, 2.7], at = [0, 0, -0.05], fov = 37);

@@ -5,7 +5,7 @@ include <studio.scad>
 body = sum([square(X), scaled(9 / 4, square(Y)), square(Z), constant(-1)]);
 lobes = times(sum([scaled(-1, square(X)), scaled(-9 / 80, square(Y))]), power(Z, 3));
 
-material("enamel", model = "whitted", kd = 0.84, ks = 0.16, shininess = 90, color = [0.80, 0.08, 0.12])
+material("enamel", model = "phong", kd = 0.78, ks = 0.22, shininess = 60, color = [0.80, 0.08, 0.12])
   algebraic(sum([power(body, 3), lobes]), box = [[-1.4, -0.9, -1.2], [1.4, 0.9, 1.5]]);
 
 ground(-1.03);

@@ -5,7 +5,7 @@ include <studio.scad>
 roman = sum([times(square(X), square(Y)), times(square(Y), square(Z)), times(square(Z), square(X)),
              scaled(-1, times(X, times(Y, Z)))]);
 
-material("celadon", model = "whitted", kd = 0.88, ks = 0.12, shininess = 80, color = [0.30, 0.62, 0.56])
+material("celadon", model = "phong", kd = 0.8, ks = 0.2, shininess = 60, color = [0.30, 0.62, 0.56])
   rotate([0, 0, 20]) scale(2.4) algebraic(roman, box = cube_of(0.55));
 
 ground(-0.92);

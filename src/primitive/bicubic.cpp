@@ -15,8 +15,8 @@ namespace tenon {
 
 namespace {
 
-// A face holds the patch and the place on it: 12 bits, and 10 for each of u and v.
-constexpr std::size_t most_patches = std::size_t{1} << 12;
+// A face holds the patch and the place on it: 11 bits, for LocalRay::on_face is signed, and 10 for each of u and v.
+constexpr std::size_t most_patches = std::size_t{1} << 11;
 constexpr std::uint32_t places = 1024;
 
 std::uint32_t face_of(std::size_t patch, double u, double v) {
@@ -194,7 +194,7 @@ std::string Bicubic::split_into_patches(Surface& surface) const {
         add_boxes(control, levels, surface.boxes);
       }
     }
-    if (surface.patches.size() > most_patches) return "bicubic has more than 4096 patches; use several";
+    if (surface.patches.size() > most_patches) return "bicubic has more than 2048 patches; use several";
   }
   return {};
 }

@@ -81,9 +81,9 @@ class PatchSearch {
       farthest = std::max(farthest, length(p));
       reach = std::max(reach, length(abs(patch[i]) + abs(ray.origin)));
     }
-    // Of the ray, of the planes' directions, and of the sums.
+    // Of the ray, of the planes' directions, and of the control points, which splines have to compute.
     error_ = length(ray.origin_error) + farthest / std::sqrt(square_) * length(ray.direction_error) +
-             gamma(24) * farthest + gamma(4) * reach;
+             gamma(24) * farthest + gamma(16) * reach;
   }
 
   void search(PatchMethod method) {

@@ -36,6 +36,29 @@ TEST(PushAttributes, NumbersLeavesInTreeOrder) {
   }
 }
 
+// A surface has no inside that could be taken away; under two complements it clips like any other.
+TEST(PushAttributes, LeavesOutSurfacesThatAreSubtracted) {
+  for (const std::string_view kind : {"polygon3d", "bicubic"}) {
+    const auto surface = [kind](SceneBuilder& b) {
+      std::vector<FieldValue> values;
+      for (const FieldInfo& field : PrimitiveStore::find_kind(kind)->fields) values.push_back(field.fallback);
+      return b.primitive(kind, values);
+    };
+    SceneBuilder once, twice;
+    Diagnostics diagnostics;
+    CsgTree tree = push_attributes(once.finish(once.subtract({once.sphere(1), surface(once)})), diagnostics);
+    EXPECT_EQ(tree.leaves.size(), 1u);
+    ASSERT_EQ(diagnostics.warnings().size(), 1u);
+    EXPECT_NE(diagnostics.warnings()[0].find("1 surfaces are subtracted"), std::string::npos);
+
+    const SceneNodeId inner = twice.subtract({twice.sphere(2), surface(twice)});
+    Diagnostics none;
+    tree = push_attributes(twice.finish(twice.subtract({twice.sphere(3), inner})), none);
+    EXPECT_EQ(tree.leaves.size(), 3u);
+    EXPECT_TRUE(none.warnings().empty());
+  }
+}
+
 TEST(PushAttributes, ASharedSubtreeBecomesALeafForEachPlace) {
   SceneBuilder b;
   const SceneNodeId ball = b.sphere(1);
