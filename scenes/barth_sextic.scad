@@ -16,4 +16,4 @@ material("amber", model = "phong", kd = 0.78, ks = 0.22, shininess = 60, color =
 
 ground(-2.15);
 studio_lights();
-camera(from = [3.9, -6.6, 2.7], at = [0, 0, -0.05], fov = 37);
+camera(from = [3.9, -6.6, 2.7], at = [0, 0, -0.05], fov = 40);

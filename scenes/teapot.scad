@@ -44,4 +44,4 @@ material("glaze", model = "whitted", kd = 0.85, ks = 0.15, shininess = 120, colo
 
 ground(0);
 studio_lights();
-camera(from = [3.4, -8.2, 4.6], at = [0.15, 0, 1.4], fov = 38);
+camera(from = [3.2, -9.4, 5.0], at = [0.25, 0, 1.35], fov = 38);

@@ -226,7 +226,7 @@ inline CsgTree room_scene() {
 }
 
 inline constexpr Scene scenes[] = {
-    {"random_8", [] { return random_scene(21, 8, 0.8); }},
+    {"random_8", [] { return random_scene(27, 8, 0.8); }},
     {"random_24", [] { return random_scene(2, 24, 1.5); }},
     {"random_60", [] { return random_scene(3, 60, 3); }},
     {"lattice", [] { return lattice_scene(4, {}); }},
