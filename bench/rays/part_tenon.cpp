@@ -12,11 +12,6 @@ namespace tenon::bench {
 
 namespace {
 
-// A lift for rays that only Tenon traces: small against the scene, and far above rounding.
-double small_lift(const BenchScene& scene) {
-  return 1e-6 * length(scene.scene.camera.at - scene.scene.camera.from);
-}
-
 double seconds_since(std::chrono::steady_clock::time_point begun) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
 }

@@ -25,6 +25,8 @@ Status run_structures(const PartOptions& options, Report& report);
 Status run_growth(const PartOptions& options, Report& report);
 /// All cores against one.
 Status run_cores(const PartOptions& options, Report& report);
+/// Path tracing as the thesis renders (8 samples, depth 20) against bare incoherent rays, and all cores against one.
+Status run_path(const PartOptions& options, Report& report);
 /// From the scene's text to the first ray, against making a mesh and its tree.
 Status run_start(const PartOptions& options, Report& report);
 /// Whole pictures against POV-Ray's.

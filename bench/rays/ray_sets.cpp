@@ -51,6 +51,10 @@ PixelPlace pixel_place(std::size_t i) {
   return {static_cast<int>(tile_index % columns) * tile + x, static_cast<int>(tile_index / columns) * tile + y};
 }
 
+double small_lift(const BenchScene& scene) {
+  return 1e-6 * length(scene.scene.camera.at - scene.scene.camera.from);
+}
+
 std::vector<RaySet> make_ray_sets(const BenchScene& scene, const Accelerator& accelerator, double lift) {
   static_assert(picture_width % tile == 0 && picture_height % tile == 0);
   constexpr std::size_t pixels = static_cast<std::size_t>(picture_width) * picture_height;

@@ -30,4 +30,7 @@ PixelPlace pixel_place(std::size_t i);
 /// @return primary, shadow, diffuse
 std::vector<RaySet> make_ray_sets(const BenchScene& scene, const Accelerator& accelerator, double lift);
 
+/// A lift for rays that only Tenon traces: small against the scene, and far above rounding.
+double small_lift(const BenchScene& scene);
+
 }  // namespace tenon::bench

@@ -76,7 +76,7 @@ double LitLight::fading(const Vec3& to_light) const {
 }
 
 double LitLight::importance(const Vec3& point) const {
-  if (environment_ != nullptr) return environment_->importance();
+  if (environment_ != nullptr) return environment_->is_uniform() ? 0 : environment_->importance();
   if (kind_ != LightKind::rectangle) return largest(at(point).light);
   // Near the light its middle says little about how much of it there is to see, and from which side.
   if (!(dot(point - position_, direction_) > 0)) return 0;

@@ -44,7 +44,8 @@ class LitLight {
   /// around the scene.
   IncidentLight at(const Vec3& point) const;
 
-  /// About what a white surface at the point would show of it, shadows aside: never 0 where the light reaches.
+  /// About what a white surface at the point would show of it, shadows aside: never 0 where the light reaches, but for
+  /// a uniform world, of which no direction is worth drawing.
   double importance(const Vec3& point) const;
 
   /// Draws a direction to the light; none where none of it can be seen.

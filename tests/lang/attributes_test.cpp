@@ -43,6 +43,67 @@ TEST(MaterialModule, SetsWhatIsGiven) {
   EXPECT_EQ(model.materials[0], expected);
 }
 
+TEST(MaterialModule, MicrofacetModels) {
+  const Model model = model_of(
+      "translate([1, 2, 3]) material(model = \"principled\", color = \"red\", roughness = 0.2, metallic = 0.3,"
+      "transmission = 0.4, coat = 0.5, coat_roughness = 0.6, ior = 1.7, emission = 8, attenuation_color = [0, 1, 0],"
+      "attenuation_distance = 9, texture = \"wood\", texture_color = \"blue\", texture_size = 2, turbulence = 3) "
+      "cube();"
+      "material(\"gold\", model = \"conductor\") cube();"
+      "material(model = \"dielectric\") cube();");
+  ASSERT_EQ(model.materials.size(), 3u);
+  Material expected;
+  expected.model = MaterialModel::principled;
+  expected.color = Rgba{1, 0, 0, 1};
+  expected.roughness = 0.2, expected.metallic = 0.3, expected.transmission = 0.4, expected.coat = 0.5;
+  expected.coat_roughness = 0.6, expected.ior = 1.7, expected.emission = 8;
+  expected.attenuation_color = {0, 1, 0, 1}, expected.attenuation_distance = 9;
+  expected.texture.kind = TextureKind::wood;
+  expected.texture.second = {0, 0, 1, 1}, expected.texture.size = 2, expected.texture.turbulence = 3;
+  expected.texture.texture_from_world = Affine3::translate({-1, -2, -3});
+  EXPECT_EQ(model.materials[0], expected);
+  EXPECT_EQ(model.materials[1].color, (Rgba{1, 0.78, 0.34, 1})) << "a preset keeps its colour";
+  EXPECT_EQ(model.materials[2].ior, 1.5) << "glass, when nobody says";
+}
+
+TEST(MaterialModule, RefusesWhatAModelHasNot) {
+  const std::pair<const char*, const char*> mistakes[] = {
+      {"model = \"lambert\", roughness = 1", "has no 'roughness'"},
+      {"model = \"conductor\", ior = 2", "has no 'ior'"},
+      {"model = \"dielectric\", metallic = 1", "has no 'metallic'"},
+      {"roughness = 0.5", "has no 'roughness'"},
+      {"model = \"principled\", kd = 0.5", "has no 'kd'"},
+      {"model = \"principled\", roughness = 1.5", "between 0 and 1"},
+      {"texture_size = 2", "needs a 'texture'"},
+      {"texture = \"stone\"", "\"marble\""},
+      {"model = \"dielectric\", attenuation_distance = 2", "give both"},
+      {"model = \"conductor\", attenuation_color = \"red\", attenuation_distance = 1", "opaque"}};
+  for (const auto& [arguments, message] : mistakes) {
+    const std::string error = error_of("material(" + std::string(arguments) + ") cube();");
+    EXPECT_NE(error.find(message), std::string::npos) << arguments << ": " << error;
+  }
+}
+
+TEST(LightModule, RectanglesMoveWithWhatIsAroundThem) {
+  const Model model = model_of(
+      "light(type = \"rectangle\", position = [0, 0, 5], size = [2, 3]);"
+      "mirror([0, 0, 1]) light(type = \"rectangle\", position = [0, 0, 5], size = [2, 3]);"
+      "scale(2) light(type = \"sphere\", radius = 3);"
+      "rotate([0, 0, 90]) light(type = \"environment\");");
+  ASSERT_EQ(model.lights.size(), 4u);
+  EXPECT_LT(model.lights[0].direction.z, 0);
+  EXPECT_EQ(length(model.lights[0].edge_u), 2);
+  EXPECT_EQ(length(model.lights[0].edge_v), 3);
+  EXPECT_GT(model.lights[1].direction.z, 0) << "a mirror image faces the other way";
+  EXPECT_EQ(model.lights[1].position, (Vec3{0, 0, -5}));
+  EXPECT_NEAR(model.lights[2].radius, 6, 1e-12);
+  EXPECT_NEAR(model.lights[3].turn, 90, 1e-12);
+  // Printed and read again, to the last bit.
+  const Model again = model_of(print_csg(model) + " cube();");
+  EXPECT_EQ(again.lights[1].edge_u, model.lights[1].edge_u);
+  EXPECT_EQ(again.lights[1].direction, model.lights[1].direction);
+}
+
 TEST(MaterialModule, EqualOnesAreOne) {
   EXPECT_EQ(model_of("for (i = [1:5]) material(\"a\") cube(i); material(\"b\") cube();").materials.size(), 2u);
 }
