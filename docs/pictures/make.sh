@@ -30,3 +30,4 @@ picture grooved_sphere grooved_sphere --size 480x360 --spp 9
 picture checkered_cube checkered_cube --size 480x360 --spp 9
 picture small_shell small_shell --size 480x360 --spp 9
 picture large_shell large_shell --size 480x360 --spp 9
+for name in barth_sextic heart teapot; do picture "$name" "$name" --size 480x360 --spp 9; done
