@@ -6,9 +6,9 @@
 #include <filesystem>
 
 #include "commands.h"
+#include "model_fingerprint.h"
 #include "numbers.h"
 #include "tenon/accel/section_light.h"
-#include "tenon/base/fingerprint.h"
 #include "tenon/base/parallel_for.h"
 #include "tenon/image/light_file.h"
 #include "tenon/lang/load.h"
@@ -152,7 +152,7 @@ Result<TraceableScene> prepare(const SceneArguments& arguments, const TracingArg
   Result<Model> model = load(arguments, console);
   if (!model) return model.error();
   console.progress().begin("compiling " + arguments.path);
-  const std::string scene_fingerprint = picture != nullptr ? fingerprint(print_csg(*model)) : "";
+  const std::string scene_fingerprint = picture != nullptr ? model_fingerprint(*model) : "";
   Result<Scene> scene =
       compile_scene(std::move(*model), console.diagnostics(), picture != nullptr ? picture->view : ViewRequest{});
   if (!scene) return scene.error();

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <thread>
 
@@ -87,6 +88,26 @@ TEST_F(LongWork, PartSaysHowMuchIsThere) {
   const Outcome outcome = run({"merge", "a.exr", "-o", "x.png"});
   EXPECT_EQ(outcome.status, 0);
   EXPECT_TRUE(contains(outcome.err, "50.0 %")) << outcome.err;
+}
+
+TEST_F(LongWork, MergeSeesThatAMeshHasChanged) {
+  const auto tetrahedron = [&](const std::string& top) {
+    const std::string a = "0 0 0", b = "1 0 0", c = "0 1 0", d = "0 0 " + top;
+    std::string text = "solid t\n";
+    for (const auto& [p, q, r] : {std::array{a, c, b}, std::array{a, b, d}, std::array{a, d, c}, std::array{b, c, d}}) {
+      text +=
+          "facet normal 0 0 0\nouter loop\nvertex " + p + "\nvertex " + q + "\nvertex " + r + "\nendloop\nendfacet\n";
+    }
+    write("t.stl", text + "endsolid\n");
+  };
+  write("ball.scad", "camera(from = [3, 3, 3], at = [0, 0, 0]); import(\"t.stl\");\n");
+  tetrahedron("1");
+  expect_done(render({"-o", "a.exr", "--samples", "0:3"}));
+  tetrahedron("2");
+  expect_done(render({"-o", "b.exr", "--samples", "3:6"}));
+  const Outcome outcome = run({"merge", "a.exr", "b.exr", "-o", "x.png"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(contains(outcome.err, "of another picture")) << outcome.err;
 }
 
 // Kills the program without warning, again and again, somewhere in the middle.

@@ -30,7 +30,9 @@ class ExactSum {
   void add(double value) {
     // Not clamp(): what compares false with everything is to end as 0.
     const double bounded = value > 0 ? std::min(value, limit()) : value < 0 ? std::max(value, -limit()) : 0;
-    units_ += static_cast<Integer>(std::nearbyint(bounded * power_of_two(fraction_bits)));
+    const double units = bounded * power_of_two(fraction_bits);
+    // From 2^52 on every double is whole.
+    units_ += static_cast<Integer>(std::fabs(units) < 0x1p52 ? std::nearbyint(units) : units);
   }
   ExactSum& operator+=(const ExactSum& other) { return units_ += other.units_, *this; }
 
