@@ -123,6 +123,42 @@ TEST(Cells, PacketsSayWhatSingleRaysSay) {
   EXPECT_GT(found, queries.size() / 4);
 }
 
+// Rays that go the same way from places far apart: a block of them would open all that lies between, and is given up.
+TEST(Cells, BlocksThatDoNotPaySayWhatSingleRaysSay) {
+  SceneBuilder b;
+  Draw draw(35);
+  std::vector<SceneNodeId> parts{b.cube({2, 2, 2}, true)};
+  for (int i = 0; i < 3000; ++i) parts.push_back(b.translate(draw.in_box({{-1, -1, -1}, {1, 1, 1}}), b.sphere(0.04)));
+  const CsgTree tree = b.tree(b.subtract(parts));
+  const auto multi_kd = build_accelerator("multi-kd", tree), judged = build_accelerator("cells", tree);
+  const auto context = (*multi_kd)->make_context(), other = (*judged)->make_context();
+  std::vector<RayQuery> queries;
+  for (int i = 0; i < 2048; ++i) {
+    RayQuery query;
+    query.ray.origin = draw.in_box({{-1.5, -1.5, -1.5}, {1, 1, 1}});
+    query.ray.direction = normalize(Vec3{1, 0.7, 0.5} + 0.05 * draw.direction());
+    if (i % 3 == 0) query.t_max = draw.real(0, 2);
+    query.kind = RayKind::shadow;
+    queries.push_back(query);
+  }
+  std::vector<Hit> hits(queries.size());
+  std::vector<RayBoundary> boundaries(queries.size());
+  std::vector<std::uint8_t> occluded(queries.size());
+  (*judged)->first_hits(queries, hits, *other);
+  (*judged)->first_boundaries(queries, boundaries, *other);
+  (*judged)->occluded(queries, occluded, *other);
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const Hit hit = (*multi_kd)->first_hit(queries[i], *context);
+    found += hit.found();
+    ASSERT_TRUE(battery::same_hit(hit, hits[i])) << battery::describe(hit) << " against " << battery::describe(hits[i]);
+    ASSERT_EQ(boundaries[i].t, hit.t);
+    ASSERT_EQ(occluded[i] != 0, hit.found());
+  }
+  EXPECT_GT(found, queries.size() / 4);
+  EXPECT_LT(found, queries.size());
+}
+
 // More work gives more and smaller cells.
 TEST(Cells, QualityIsWorkInTheSubdivision) {
   const CsgTree tree = gallery::random_scene(6, 60, 3);

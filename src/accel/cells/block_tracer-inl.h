@@ -35,10 +35,13 @@ class BlockTracer {
     return LoadRays() && FindStarts();
   }
 
-  /// Traces them; `finisher` gives what was found by plain arithmetic its last bits.
-  void Trace(std::span<CellAnswer> answers, SingleTracer& finisher, TraversalStatistics& statistics) {
+  /// Traces them; `finisher` gives what was found by plain arithmetic its last bits, and traces the rays that are left
+  /// when the block is given up.
+  /// @return whether the block was worth its while
+  bool Trace(std::span<CellAnswer> answers, SingleTracer& finisher, TraversalStatistics& statistics) {
     any_will_do_ = finisher.wanted() == Wanted::occlusion;
-    Walk();
+    const bool pays = Walk();
+    if (!pays) GiveUp();
     TraversalCounters& counters = statistics[queries_[0].kind];
     counters.cells_visited += visited_;
     counters.primitive_tests += tests_;
@@ -47,6 +50,7 @@ class BlockTracer {
     for (std::size_t i = 0; i < count_; ++i) {
       if ((finished >> i & 1) == 0) Answer(i, answers[i], finisher, counters);
     }
+    return pays;
   }
 
  private:
@@ -231,21 +235,38 @@ class BlockTracer {
     }
   }
 
-  void Walk() {
-    if (is_missed_) return;
+  // A step of the block costs about what it costs to bring so many rays one cell further one by one. Rays whose ways
+  // lie apart share few cells, while the block opens all that lie between them.
+  static constexpr std::uint64_t least_rays_a_step = 2;
+  static constexpr std::uint64_t steps_of_grace = 48;
+
+  // @return false when it was given up, since too few rays share its cells
+  bool Walk() {
+    if (is_missed_) return true;
     Entry* const stack = stack_.data();
     Entry* top = stack;
     Open(cells_.nodes.front(), top);
+    std::uint64_t steps = 0;
     while (top != stack) {
       const Entry entry = *--top;
       // Every ray has its boundary by then.
       if (entry.key > longest_) continue;
+      if (++steps > steps_of_grace && visited_ < least_rays_a_step * (steps - steps_of_grace)) return false;
       const ChildRef child{entry.child};
       if (!child.is_cell()) {
         Open(cells_.nodes[child.index()], top);
         continue;
       }
       if (Visit(child.index(), entry)) ShortenBlock();
+    }
+    return true;
+  }
+
+  // What was found so far need not be the first; where any boundary will do, and one was found for certain, it stands.
+  void GiveUp() {
+    for (std::size_t i = 0; i < count_; ++i) {
+      const bool is_done = box_end_[i] < 0 && (any_will_do_ || found_[i] == none);
+      if (!is_done) unsure_ |= std::uint64_t{1} << i;
     }
   }
 

@@ -28,18 +28,20 @@ void TraceRays(const CellTree& cells, const CsgTree& tree, std::span<const RayQu
   constexpr std::size_t least = 8;
   if (queries.size() < least) return trace_singly(0, queries.size());
   BlockTracer block(cells, tree.tolerance.distance);
+  // Where many do not make a block that pays, fewer of them may.
+  constexpr std::size_t few = 16;
+  std::size_t most = BlockTracer::most_rays;
   for (std::size_t begin = 0; begin < queries.size();) {
-    // Where many do not make a block, some of them may.
-    std::size_t count = std::min(BlockTracer::most_rays, queries.size() - begin);
-    bool together = block.Begin(queries.subspan(begin, count));
-    if (!together) {
-      count = std::min<std::size_t>(16, count);
-      together = count >= least && block.Begin(queries.subspan(begin, count));
+    std::size_t count = std::min(most, queries.size() - begin);
+    bool together = most >= least && block.Begin(queries.subspan(begin, count));
+    if (!together && count > few) {
+      count = few;
+      together = block.Begin(queries.subspan(begin, count));
     }
-    if (together) {
-      block.Trace(answers.subspan(begin, count), single, statistics);
-    } else {
+    if (!together) {
       trace_singly(begin, begin + count);
+    } else if (!block.Trace(answers.subspan(begin, count), single, statistics)) {
+      most = most > few ? few : 1;
     }
     begin += count;
   }
