@@ -61,6 +61,16 @@ Affine3 flattened(const Affine3& map) {
   return flat;
 }
 
+Solid flat_children(ModuleCall& call) {
+  ModuleEvaluator& evaluator = call.evaluator;
+  const Solid shape = evaluator.builder().unite(evaluator.children(*call.instantiation.children, call.scope));
+  if (shape.is_nothing() || shape.flat) return shape;
+  const std::string name = evaluator.environment().text(call.instantiation.name);
+  evaluator.environment().warn(call.at(),
+                               name + "() takes shapes of the plane, and its children are solids; it makes nothing");
+  return Solid::nothing();
+}
+
 Solid tapered(ModuleEvaluator& evaluator, const Solid& shape, double scale, Place at) {
   return Solid::of(Taper(evaluator, scale, at).rebuild(shape.node));
 }

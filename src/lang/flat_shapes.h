@@ -10,6 +10,9 @@ namespace tenon::lang {
 /// What a transformation does to shapes of the plane: as in OpenSCAD, its part in the plane.
 Affine3 flattened(const Affine3& map);
 
+/// The union of the children of a call; nothing, with a warning, where they are solids.
+Solid flat_children(ModuleCall& call);
+
 /// A flat shape swept from z = 0 to 1 that grows on the way to `scale` times its size.
 Solid tapered(ModuleEvaluator& evaluator, const Solid& shape, double scale, Place at);
 

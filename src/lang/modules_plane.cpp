@@ -114,17 +114,6 @@ std::optional<Solid> polygon(ModuleCall& call) {
   return make_polygon(call, std::move(outline));
 }
 
-// The union of the children; nothing, with a warning, where they are solids already.
-Solid flat_children(ModuleCall& call) {
-  ModuleEvaluator& evaluator = call.evaluator;
-  const Solid shape = evaluator.builder().unite(evaluator.children(*call.instantiation.children, call.scope));
-  if (shape.is_nothing() || shape.flat) return shape;
-  const std::string name = evaluator.environment().text(call.instantiation.name);
-  evaluator.environment().warn(call.at(),
-                               name + "() takes shapes of the plane, and its children are solids; it makes nothing");
-  return Solid::nothing();
-}
-
 // A number, or two where both are the same.
 double require_even_scale(const ModuleArguments& arguments, std::size_t index) {
   if (!arguments.given(index)) return 1;

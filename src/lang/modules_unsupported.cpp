@@ -12,8 +12,8 @@ std::optional<Solid> not_supported(ModuleCall& call) {
 }  // namespace
 
 void add_unsupported_modules(BuiltinModuleTable& table, SymbolTable& symbols) {
-  for (const char* name : {"text", "dxf_linear_extrude", "dxf_rotate_extrude", "import_dxf", "projection", "hull",
-                           "minkowski", "offset", "fill", "roof"}) {
+  for (const char* name :
+       {"text", "dxf_linear_extrude", "dxf_rotate_extrude", "import_dxf", "projection", "minkowski", "fill", "roof"}) {
     table.emplace(symbols.intern(name), not_supported);
   }
 }

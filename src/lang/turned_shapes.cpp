@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include "csg/tolerance.h"
+#include "lang/flat_outline.h"
+#include "plane/mapped_outline.h"
+#include "primitive/arc.h"
 #include "primitive/outline_edges.h"
 
 namespace tenon::lang {
@@ -12,44 +15,10 @@ namespace {
 
 using Loop = std::vector<OutlineCorner>;
 
-Outline outline_of(const PrimitiveStore& store, PrimitiveId id) {
-  const std::string_view kind = store.kind(id).name;
-  const std::vector<FieldValue> values = store.values(id);
-  if (kind == "cylinder") {
-    const double r = std::get<double>(values[1]);
-    return {{{{0, -r, 1}, {0, r, 1}}}};
-  }
-  if (kind == "cube") {
-    const Vec3 size = std::get<Vec3>(values[0]);
-    return {{{{0, 0, 0}, {size.x, 0, 0}, {size.x, size.y, 0}, {0, size.y, 0}}}};
-  }
-  return std::get<Outline>(values[0]);
-}
-
 bool has_arcs(const Outline& outline) {
   return std::any_of(outline.loops.begin(), outline.loops.end(), [](const Loop& loop) {
     return std::any_of(loop.begin(), loop.end(), [](const OutlineCorner& c) { return c.bulge != 0; });
   });
-}
-
-// Whether a map of the plane keeps circles round, but for what counts as one place.
-bool keeps_circles(const Affine3& map) {
-  const Vec3 a = map.column(0), b = map.column(1);
-  const double size = dot(a, a) + dot(b, b);
-  return std::fabs(dot(a, a) - dot(b, b)) <= Tolerance::relative * size &&
-         std::fabs(dot(a, b)) <= Tolerance::relative * size;
-}
-
-Outline mapped(const Outline& outline, const Affine3& map) {
-  const bool mirrors = map.m[0][0] * map.m[1][1] - map.m[0][1] * map.m[1][0] < 0;
-  Outline result = outline;
-  for (Loop& loop : result.loops) {
-    for (OutlineCorner& c : loop) {
-      const Vec3 p = map.point({c.x, c.y, 0});
-      c = {p.x, p.y, mirrors ? -c.bulge : c.bulge};
-    }
-  }
-  return result;
 }
 
 /// Cuts off what lies left of the axis: each loop runs along the axis there instead.
@@ -84,10 +53,7 @@ class AxisCut {
   }
 
   void cut_arc(const Vec2& from, const Vec2& to, double bulge) {
-    const Vec2 w = to - from;
-    const double k = (1 - bulge) * (1 + bulge) / (4 * bulge);
-    const Vec2 c = 0.5 * (from + to) + k * Vec2{-w.y, w.x};
-    const double r = length(w) * (1 + bulge * bulge) / (4 * std::fabs(bulge));
+    const auto [c, r] = circle_of_arc(from, to, bulge);
     // The arc's points on the axis, in its order: by the bulge of the part up to them, which grows along it.
     std::vector<std::pair<double, Vec2>> stops{{0, from}};
     const double square = (r - c.x) * (r + c.x);
@@ -104,8 +70,7 @@ class AxisCut {
       const Vec2 a = stops[i].second, b = stops[i + 1].second;
       const double part = stops.size() == 2 ? bulge : bulge_between(a, b, c, r, bulge);
       // The middle of the part tells on which side of the axis it lies.
-      const Vec2 chord = b - a, middle = 0.5 * (a + b) + 0.5 * part * Vec2{chord.y, -chord.x};
-      if (middle.x > 0) keep(snapped(a), snapped(b), part);
+      if (middle_of_arc(a, b, part).x > 0) keep(snapped(a), snapped(b), part);
     }
   }
 
@@ -132,7 +97,7 @@ class Turner {
     SceneBuilder& builder = evaluator_.builder();
     const SceneNode node = builder.model().graph[id];
     if (const auto* leaf = std::get_if<PrimitiveLeaf>(&node.content)) {
-      return turn(outline_of(builder.model().graph.primitives, leaf->primitive), map, may_cross_axis);
+      return turn(outline_of_leaf(builder.model().graph.primitives, leaf->primitive), map, may_cross_axis);
     }
     const auto* operation = std::get_if<SetOperation>(&node.content);
     const auto* transform = std::get_if<Transform>(&node.content);
@@ -153,7 +118,7 @@ class Turner {
     const SceneNode& node = graph[id];
     if (const auto* leaf = std::get_if<PrimitiveLeaf>(&node.content)) {
       for (const Vec3& sign : {Vec3{1, 1, 0}, Vec3{-1, 1, 0}}) {
-        const OutlineEdges edges(outline_of(graph.primitives, leaf->primitive));
+        const OutlineEdges edges(outline_of_leaf(graph.primitives, leaf->primitive));
         const Vec2 n{sign.x * map.m[0][0], sign.x * map.m[0][1]};
         const double x = edges.support(n) + sign.x * map.m[0][3];
         (sign.x > 0 ? right_ : left_) = std::max(sign.x > 0 ? right_ : left_, x);

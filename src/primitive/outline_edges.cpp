@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "primitive/arc.h"
 #include "primitive/check.h"
 #include "tenon/math/rounding.h"
 
@@ -12,15 +13,8 @@ namespace {
 // An arc flatter than this is bounded by the rectangle around it: through its centre its extent would cancel.
 constexpr double flat_bulge = 0x1p-6;
 
-struct Circle {
-  Vec2 center;
-  double radius;
-};
-
 Circle circle_of(const OutlineEdge& edge) {
-  const Vec2 w = edge.chord();
-  const double b = edge.bulge, to_center = (1 - b * b) / (4 * b);
-  return {0.5 * (edge.from + edge.to) + to_center * Vec2{-w.y, w.x}, length(w) * (1 + b * b) / (4 * std::fabs(b))};
+  return circle_of_arc(edge.from, edge.to, edge.bulge);
 }
 
 // The far side of the rectangle around an arc of at most a half turn.

@@ -1,1 +1,0 @@
-surface(file="/tmp/b.dat");

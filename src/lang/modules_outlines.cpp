@@ -1,0 +1,50 @@
+#include <algorithm>
+#include <cmath>
+
+#include "lang/facets.h"
+#include "lang/flat_outline.h"
+#include "lang/flat_shapes.h"
+#include "lang/primitive_arguments.h"
+#include "plane/convex_outline.h"
+#include "plane/offset.h"
+
+namespace tenon::lang {
+
+namespace {
+
+std::optional<Solid> offset(ModuleCall& call) {
+  constexpr std::string_view names[] = {"r", "delta", "chamfer"};
+  const ModuleArguments arguments(call, names, UnknownArgument::warn);
+  const auto r = number_argument(call, arguments, 0, "r"), delta = number_argument(call, arguments, 1, "delta");
+  // As in OpenSCAD the radius goes first, and is 1 where neither is given.
+  const double distance = r ? *r : delta.value_or(1);
+  const OffsetJoin join = r || !delta            ? OffsetJoin::round
+                          : arguments[2].truth() ? OffsetJoin::chamfer
+                                                 : OffsetJoin::miter;
+  if (!std::isfinite(distance)) fail(arguments.at(r ? 0 : 1), "the distance of offset() must be finite");
+  if (join == OffsetJoin::round && facet_count(call.evaluator, 1) > 0) {
+    call.evaluator.environment().warn(call.at(), "offset() by a radius is round here; facets of it are not supported");
+  }
+  const Solid shape = flat_children(call);
+  return flat_solid(call.evaluator, tenon::offset(outline_of(call.evaluator, shape, call.at()), distance, join),
+                    call.at());
+}
+
+std::optional<Solid> hull(ModuleCall& call) {
+  ModuleEvaluator& evaluator = call.evaluator;
+  const Solids parts = evaluator.children(*call.instantiation.children, call.scope);
+  const bool empty = std::all_of(parts.begin(), parts.end(), [](const Solid& part) { return part.is_nothing(); });
+  if (empty) return Solid::nothing();
+  if (!are_flat(parts)) fail(call.at(), "hull() of solids is not supported yet; remove it, or disable it with '*'");
+  const Solid shape = evaluator.builder().unite(parts);
+  return flat_solid(evaluator, convex_hull(outline_of(evaluator, shape, call.at())), call.at());
+}
+
+}  // namespace
+
+void add_outline_modules(BuiltinModuleTable& table, SymbolTable& symbols) {
+  table.emplace(symbols.intern("offset"), offset);
+  table.emplace(symbols.intern("hull"), hull);
+}
+
+}  // namespace tenon::lang

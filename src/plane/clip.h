@@ -1,0 +1,24 @@
+#pragma once
+
+#include "plane/recover.h"
+
+namespace tenon {
+
+/// An operation of Clipper's on polygons, by default oriented ones.
+inline ClipperLib::Paths clip(ClipperLib::ClipType type, const ClipperLib::Paths& subjects,
+                              const ClipperLib::Paths& clips, ClipperLib::PolyFillType fill = ClipperLib::pftNonZero) {
+  ClipperLib::Clipper clipper;
+  clipper.AddPaths(subjects, ClipperLib::ptSubject, true);
+  clipper.AddPaths(clips, ClipperLib::ptClip, true);
+  ClipperLib::Paths result;
+  clipper.Execute(type, result, fill, fill);
+  return result;
+}
+
+/// Bound on the |coordinates| of an outline.
+inline double largest_coordinate(const Outline& outline) {
+  const OutlineEdges edges(outline);
+  return edges.edges().empty() ? 0 : std::max(edges.reach().x, edges.reach().y);
+}
+
+}  // namespace tenon
