@@ -17,6 +17,7 @@ CommandBody add_trace_command(CLI::App& command);
 CommandBody add_info_command(CLI::App& command);
 CommandBody add_compare_command(CLI::App& command);
 CommandBody add_convert_command(CLI::App& command);
+CommandBody add_lab_command(CLI::App& command);
 
 inline Error usage_error(std::string message) {
   return {ErrorKind::usage, std::move(message), {}};

@@ -22,7 +22,7 @@ struct Command {
   CommandBody (*add)(CLI::App& command);
 };
 
-constexpr std::array<Command, 7> commands{{
+constexpr std::array<Command, 8> commands{{
     {"render", "Take a picture of a scene", add_render_command},
     {"merge", "Add up parts of one picture, made on any machines in any order", add_merge_command},
     {"denoise", "Take the noise out of an EXR picture", add_denoise_command},
@@ -30,6 +30,7 @@ constexpr std::array<Command, 7> commands{{
     {"compare", "Trace the same rays through every structure, and check the answers", add_compare_command},
     {"info", "Say what a scene holds", add_info_command},
     {"convert", "Write the evaluated scene to another format", add_convert_command},
+    {"lab", "Measure the papers' tables again, beside the papers' figures", add_lab_command},
 }};
 
 constexpr const char* exit_statuses =

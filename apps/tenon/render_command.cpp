@@ -6,6 +6,7 @@
 #include "animation.h"
 #include "checkpoint.h"
 #include "commands.h"
+#include "heat_map_arguments.h"
 #include "picture_arguments.h"
 #include "picture_notes.h"
 #include "picture_output.h"
@@ -27,13 +28,23 @@ struct RenderCommand {
   RenderArguments render;
   WorkArguments work;
   PictureArguments picture;
+  HeatMapArguments heat_map;
 
   Status run() const;
 
  private:
+  Status check_heat_map() const;
+  Status take_heat_map(const RenderPlan& plan, const PicturePlan& file, const RenderOptions& options,
+                       Console& console) const;
   Status animate(const RenderPlan& plan, const PicturePlan& file, const RenderOptions& options, Console& console) const;
   Status take(const RenderPlan& plan, const PicturePlan& file, const RenderOptions& options, const std::string& what,
               Console& console) const;
+  /// The files of a picture, begun.
+  struct Outputs {
+    Output picture;
+    std::optional<Output> statistics;
+  };
+  Result<Outputs> open_outputs(const PicturePlan& file) const;
   Result<RenderOptions> plan_options(const RenderPlan& plan, const PicturePlan& file) const;
   std::string dependent_arguments(const RenderOptions& options) const;
   void say_end(Console& console, const PicturePlan& file, const FilmPart& part, const Rendering& rendering) const;
@@ -110,6 +121,10 @@ Status RenderCommand::run() const {
   const Result<RenderOptions> options = plan_options(*plan, *file);
   if (!options) return options.error();
   Console console(scene.quiet);
+  if (heat_map.wanted()) {
+    if (Status status = check_heat_map(); !status) return status;
+    return take_heat_map(*plan, *file, *options, console);
+  }
   return work.frames == 0 ? take(*plan, *file, *options, "rendering", console)
                           : animate(*plan, *file, *options, console);
 }
@@ -132,6 +147,61 @@ Status RenderCommand::animate(const RenderPlan& plan, const PicturePlan& file, c
   return success();
 }
 
+// What a picture of costs has no use for.
+Status RenderCommand::check_heat_map() const {
+  const std::pair<const char*, bool> others[]{{"--denoise", picture.denoise},
+                                              {"--layers", !picture.layers.empty()},
+                                              {"--tonemap", picture.tone_curve != "none"},
+                                              {"--exposure", picture.exposure != 0},
+                                              {"--transparent", render.transparent},
+                                              {"--noise", work.noise > 0},
+                                              {"--time", work.seconds > 0},
+                                              {"--checkpoint", !work.checkpoint.empty()},
+                                              {"--animate", work.frames > 0}};
+  for (const auto& [name, given] : others) {
+    if (given) return usage_error(std::string("--heatmap shows numbers, not light; leave ") + name + " out");
+  }
+  return success();
+}
+
+Status RenderCommand::take_heat_map(const RenderPlan& plan, const PicturePlan& file, const RenderOptions& options,
+                                    Console& console) const {
+  const PictureRequest request{plan.view, plan.width, plan.height};
+  const Result<TraceableScene> traceable = prepare(scene, tracing, console, &request);
+  if (!traceable) return traceable.error();
+  Result<Outputs> outputs = open_outputs(file);
+  if (!outputs) return outputs.error();
+  console.progress().begin("measuring");
+  const Result<CostMap> map = measure_cost(traceable->scene, *traceable->accelerator, options, heat_map_takes(heat_map),
+                                           &console.progress().counters());
+  if (!map) return map.error();
+  console.progress().begin("writing " + file.output);
+  const std::vector<PictureNote> notes = picture_notes(
+      {scene.path, dependent_arguments(options), traceable->fingerprint, options.seed, traceable->scene.camera});
+  const Result<std::string> bytes = encode(*map, heat_map, file, tracing.accelerator, options, notes);
+  if (!bytes) return bytes.error();
+  if (Status status = outputs->picture.finish(*bytes); !status) return status;
+  if (outputs->statistics) {
+    const std::string json =
+        statistics_json(tracing.accelerator, *traceable, map->threads, map->render_seconds, map->statistics);
+    if (Status status = outputs->statistics->finish(json); !status) return status;
+  }
+  console.progress().end();
+  return success();
+}
+
+// All files are begun before the work: better to learn that a place cannot be written now than after an hour.
+Result<RenderCommand::Outputs> RenderCommand::open_outputs(const PicturePlan& file) const {
+  Result<Output> picture_file = Output::open(file.output);
+  if (!picture_file) return picture_file.error();
+  Outputs outputs{std::move(*picture_file), std::nullopt};
+  if (render.statistics.empty()) return outputs;
+  Result<Output> statistics_file = Output::open(render.statistics);
+  if (!statistics_file) return statistics_file.error();
+  outputs.statistics.emplace(std::move(*statistics_file));
+  return outputs;
+}
+
 Status RenderCommand::take(const RenderPlan& plan, const PicturePlan& file, const RenderOptions& options,
                            const std::string& what, Console& console) const {
   const PictureRequest request{plan.view, plan.width, plan.height};
@@ -146,15 +216,8 @@ Status RenderCommand::take(const RenderPlan& plan, const PicturePlan& file, cons
   part.notes = picture_notes(
       {scene.path, dependent_arguments(options), traceable->fingerprint, options.seed, traceable->scene.camera});
 
-  // All files are begun now: better to learn that a place cannot be written before an hour of rendering than after.
-  Result<Output> picture_file = Output::open(file.output);
-  if (!picture_file) return picture_file.error();
-  std::optional<Output> statistics_file;
-  if (!render.statistics.empty()) {
-    Result<Output> opened = Output::open(render.statistics);
-    if (!opened) return opened.error();
-    statistics_file.emplace(std::move(*opened));
-  }
+  Result<Outputs> outputs = open_outputs(file);
+  if (!outputs) return outputs.error();
   std::optional<Checkpoint> checkpoint;
   std::optional<Film> resumed;
   if (!work.checkpoint.empty()) {
@@ -195,11 +258,12 @@ Status RenderCommand::take(const RenderPlan& plan, const PicturePlan& file, cons
   if (options.crop) part = cropped(part, *options.crop);
   const Result<std::string> bytes = encode(part, file, options.threads, console);
   if (!bytes) return bytes.error();
-  if (Status status = picture_file->finish(*bytes); !status) return status;
+  if (Status status = outputs->picture.finish(*bytes); !status) return status;
   if (checkpoint && finished) checkpoint->remove();
-  if (statistics_file) {
-    const std::string json = statistics_json(tracing.accelerator, *traceable, *rendering);
-    if (Status status = statistics_file->finish(json); !status) return status;
+  if (outputs->statistics) {
+    const std::string json =
+        statistics_json(tracing.accelerator, *traceable, rendering->threads, rendering->seconds, rendering->statistics);
+    if (Status status = outputs->statistics->finish(json); !status) return status;
   }
   console.progress().end();
   if (!scene.quiet) say_end(console, file, part, *rendering);
@@ -216,6 +280,7 @@ CommandBody add_render_command(CLI::App& command) {
   arguments->picture.add_denoise_to(command);
   arguments->render.add_to(command);
   arguments->work.add_to(command);
+  arguments->heat_map.add_to(command);
   arguments->tracing.add_to(command);
   return [arguments] { return arguments->run(); };
 }

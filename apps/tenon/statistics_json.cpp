@@ -44,10 +44,10 @@ std::string to_text(const Json& json) {
 
 }  // namespace
 
-std::string statistics_json(const std::string& accelerator, const TraceableScene& traceable,
-                            const Rendering& rendering) {
-  return to_text(to_json({accelerator, rendering.threads, traceable.build_seconds, rendering.seconds,
-                          traceable.accelerator->figures(), rendering.statistics, std::nullopt}));
+std::string statistics_json(const std::string& accelerator, const TraceableScene& traceable, int threads,
+                            double render_seconds, const TraversalStatistics& statistics) {
+  return to_text(to_json({accelerator, threads, traceable.build_seconds, render_seconds,
+                          traceable.accelerator->figures(), statistics, std::nullopt}));
 }
 
 std::string statistics_json(std::span<const Measurements> all) {

@@ -23,7 +23,7 @@ struct Measurements {
 std::string statistics_json(std::span<const Measurements> all);
 
 /// What `--stats` writes.
-std::string statistics_json(const std::string& accelerator, const TraceableScene& traceable,
-                            const Rendering& rendering);
+std::string statistics_json(const std::string& accelerator, const TraceableScene& traceable, int threads,
+                            double render_seconds, const TraversalStatistics& statistics);
 
 }  // namespace tenon

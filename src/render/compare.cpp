@@ -1,9 +1,9 @@
 #include "tenon/render/compare.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "render/lit_scene.h"
+#include "tenon/base/timing.h"
 
 namespace tenon {
 
@@ -71,13 +71,13 @@ class Replayer {
   void trace(std::span<const RayQuery> queries, std::span<const StoredAnswer> expected) {
     found_.assign(queries.size(), StoredAnswer{});
     hits_.resize(queries.size());
-    const auto begun = std::chrono::steady_clock::now();
+    const double begun = thread_cpu_seconds();
     if (queries.front().kind == RayKind::shadow) {
       for (std::size_t i = 0; i < queries.size(); ++i) found_[i] = shadow_.trace(accelerator_, queries[i], *context_);
     } else {
       accelerator_.first_hits(queries, hits_, *context_);
     }
-    result_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    result_.seconds += thread_cpu_seconds() - begun;
     if (queries.front().kind != RayKind::shadow) {
       for (std::size_t i = 0; i < queries.size(); ++i) found_[i].hit = hits_[i];
     }

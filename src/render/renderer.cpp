@@ -5,11 +5,13 @@
 #include <cassert>
 #include <chrono>
 #include <memory>
+#include <numeric>
 
 #include "render/noise.h"
 #include "render/tile_worker.h"
 #include "render/tiles.h"
 #include "tenon/base/parallel_for.h"
+#include "tenon/base/timing.h"
 
 namespace tenon {
 
@@ -50,13 +52,15 @@ class FilmWork {
 
   /// @return how the work ended
   RenderEnd run(std::vector<std::unique_ptr<TileWorker>>& workers) {
+    busy_seconds_.resize(workers.size());
     for (;;) {
       const std::vector<std::size_t> round = next_round();
       if (round.empty()) return RenderEnd::finished;
       std::atomic<bool> halted{false};
       parallel_for(round.size(), static_cast<int>(workers.size()), [&](std::size_t i, int number) {
         if (halted || wants_break()) halted = true;
-        if (!halted) advance(round[i], *workers[static_cast<std::size_t>(number)]);
+        const auto worker = static_cast<std::size_t>(number);
+        if (!halted) advance(round[i], *workers[worker], busy_seconds_[worker]);
       });
       if (is_interrupted()) return RenderEnd::interrupted;
       if (is_out_of_time()) return RenderEnd::out_of_time;
@@ -65,6 +69,8 @@ class FilmWork {
       checkpoint_ = Clock::now();
     }
   }
+
+  double busy_seconds() const { return std::accumulate(busy_seconds_.begin(), busy_seconds_.end(), 0.0); }
 
   std::vector<SampleBox> done() const {
     std::vector<SampleBox> boxes;
@@ -97,11 +103,13 @@ class FilmWork {
     return round;
   }
 
-  void advance(std::size_t i, TileWorker& worker) {
+  void advance(std::size_t i, TileWorker& worker, double& busy_seconds) {
+    const double begun = thread_cpu_seconds();
     const PixelWindow tile = tiles_[i];
     const std::uint32_t end = round_end(reached_[i]);
     const std::uint64_t rays_before = worker.statistics().total().rays;
     worker.take(tile, reached_[i], end, film_);
+    busy_seconds += thread_cpu_seconds() - begun;
     std::uint64_t done = tile.pixels() * (end - reached_[i]);
     reached_[i] = end;
     settled_[i] = is_settled(i);
@@ -137,6 +145,7 @@ class FilmWork {
   std::vector<std::uint32_t> reached_;  // by tile: the first sample that is not taken
   std::vector<char> settled_;           // by tile: it needs no more samples
   std::uint32_t least_ = 0;             // where the round began
+  std::vector<double> busy_seconds_;    // by worker: CPU time of taking samples
   Clock::time_point begun_ = Clock::now(), checkpoint_ = begun_;
 };
 
@@ -185,6 +194,7 @@ Result<Rendering> render(const Scene& scene, const Accelerator& accelerator, con
   rendering.end = work.run(workers);
   rendering.done = work.done();
   for (const auto& worker : workers) rendering.statistics += worker->statistics();
+  rendering.cpu_seconds = work.busy_seconds();
   rendering.seconds = seconds_since(begun);
   return rendering;
 }

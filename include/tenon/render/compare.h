@@ -53,7 +53,7 @@ struct Mismatch {
 
 /// What came of tracing stored rays through one accelerator, on one thread.
 struct Replay {
-  double seconds = 0;  ///< tracing alone: rays are made, and answers compared, outside of it
+  double seconds = 0;  ///< CPU seconds of tracing alone: rays are made, and answers compared, outside of it
   TraversalStatistics statistics;
   std::size_t mismatches = 0;
   std::optional<Mismatch> first;

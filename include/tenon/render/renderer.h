@@ -56,7 +56,8 @@ struct Rendering {
   std::vector<SampleBox> done;
   RenderEnd end = RenderEnd::finished;
   TraversalStatistics statistics;
-  double seconds = 0;
+  double seconds = 0;      ///< on the wall
+  double cpu_seconds = 0;  ///< of taking samples alone, over all threads: what is made once for a picture is not in it
   int threads = 1;
 };
 

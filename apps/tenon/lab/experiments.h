@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "lab/lab.h"
+#include "lab/lab_table.h"
+#include "lab/paper.h"
+
+namespace tenon {
+
+/// What measures one table.
+struct Experiment {
+  const char* id;     ///< of the table, such as "rr612-3"
+  const char* paper;  ///< Paper::id; also the name of the page
+  double weight;      ///< about how many CPU seconds it takes at full effort
+  /// Fills columns, rows, plots and claims; id and paper are known.
+  Status (*run)(Lab& lab, const Paper& paper, LabTable& table);
+};
+
+/// Every experiment, in the order of the pages.
+const std::vector<Experiment>& experiments();
+
+Status run_rr612_scenes(Lab& lab, const Paper& paper, LabTable& table);
+Status run_rr612_gain(Lab& lab, const Paper& paper, LabTable& table);
+Status run_rr612_statistics(Lab& lab, const Paper& paper, LabTable& table);
+Status run_rr612_growth(Lab& lab, const Paper& paper, LabTable& table);
+Status run_rr612_memory(Lab& lab, const Paper& paper, LabTable& table);
+
+}  // namespace tenon

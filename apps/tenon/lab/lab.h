@@ -1,0 +1,63 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene_arguments.h"
+#include "tenon/base/error.h"
+#include "tenon/render/camera_rays.h"
+#include "tenon/scene/scene.h"
+
+namespace tenon {
+
+/// How much of the papers' work a run of the lab does.
+struct LabEffort {
+  std::string name = "full";
+  double scale = 1;           ///< of the pictures' sides
+  int rounds = 5;             ///< that contenders take turns in
+  double most_spheres = 1e6;  ///< of the scaling curves
+  double curve_seconds = 4;   ///< CPU seconds after which a point of a curve is its last
+};
+
+/// A scene of the lab, ready to be traced.
+struct LabScene {
+  Scene scene;
+  CameraRays camera;
+};
+
+/// What experiments are given: the scenes, the effort, and a place to say how far they are.
+class Lab {
+ public:
+  Lab(std::string root, LabEffort effort, Console& console)
+      : root_(std::move(root)), effort_(std::move(effort)), console_(console) {}
+
+  const LabEffort& effort() const { return effort_; }
+  const std::string& root() const { return root_; }
+  Console& console() { return console_; }
+
+  /// A side of a picture that the paper made this large.
+  int side(int pixels) const;
+  /// Reads a scene file of the repository.
+  /// @param path         from the root, such as "scenes/ima1.scad"
+  /// @param definitions  as `tenon -D`
+  Result<LabScene> read(const std::string& path, int width, int height,
+                        const std::vector<std::pair<std::string, std::string>>& definitions = {}) const;
+  /// A file that ./dev lab makes beforehand; empty where it is not there.
+  std::string made_file(const std::string& name) const;
+
+  /// The experiments' share of the whole work, for the time left.
+  void begin(double weight_of_all);
+  /// The next pieces of work have this share, in so many equal steps.
+  void expect(double weight, int steps);
+  /// One of them is done.
+  void step();
+
+ private:
+  std::string root_;
+  LabEffort effort_;
+  Console& console_;
+  double begun_ = 0, weight_ = 0, step_ = 0, done_ = 0;
+};
+
+}  // namespace tenon
