@@ -21,6 +21,7 @@ ModuleEvaluator::ModuleEvaluator(Environment& environment, const LoadOptions& op
   add_file_modules(builtins_, symbols);
   add_plane_modules(builtins_, symbols);
   add_outline_modules(builtins_, symbols);
+  add_text_modules(builtins_, symbols);
   add_light_modules(builtins_, symbols);
   add_view_modules(builtins_, symbols);
   add_unsupported_modules(builtins_, symbols);

@@ -34,6 +34,7 @@ void add_primitive_modules(BuiltinModuleTable& table, SymbolTable& symbols);
 void add_file_modules(BuiltinModuleTable& table, SymbolTable& symbols);
 void add_plane_modules(BuiltinModuleTable& table, SymbolTable& symbols);
 void add_outline_modules(BuiltinModuleTable& table, SymbolTable& symbols);
+void add_text_modules(BuiltinModuleTable& table, SymbolTable& symbols);
 void add_light_modules(BuiltinModuleTable& table, SymbolTable& symbols);
 void add_view_modules(BuiltinModuleTable& table, SymbolTable& symbols);
 void add_unsupported_modules(BuiltinModuleTable& table, SymbolTable& symbols);

@@ -13,7 +13,7 @@ std::optional<Solid> not_supported(ModuleCall& call) {
 
 void add_unsupported_modules(BuiltinModuleTable& table, SymbolTable& symbols) {
   for (const char* name :
-       {"text", "dxf_linear_extrude", "dxf_rotate_extrude", "import_dxf", "projection", "minkowski", "fill", "roof"}) {
+       {"dxf_linear_extrude", "dxf_rotate_extrude", "import_dxf", "projection", "minkowski", "fill", "roof"}) {
     table.emplace(symbols.intern(name), not_supported);
   }
 }

@@ -47,12 +47,7 @@ void fit(const ParametricCurve& curve, double begin, const Vec2& a, double end, 
 
 void fit_arcs(const ParametricCurve& curve, double begin, double end, double tolerance,
               std::vector<OutlineCorner>& loop) {
-  // In thirds first: a curve that is symmetric about its middle is not mistaken for a straight line there.
-  constexpr int parts = 3;
-  for (int i = 0; i < parts; ++i) {
-    const double from = begin + (end - begin) * i / parts, to = begin + (end - begin) * (i + 1) / parts;
-    fit(curve, from, curve(from), to, curve(to), tolerance, 0, loop);
-  }
+  fit(curve, begin, curve(begin), end, curve(end), tolerance, 0, loop);
 }
 
 }  // namespace tenon
