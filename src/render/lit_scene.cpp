@@ -70,6 +70,8 @@ LitScene::LitScene(const Scene& scene)
   materials_.reserve(scene.materials.size() + 1);
   materials_.push_back(prepare(scene.default_material));
   for (const Material& m : scene.materials) materials_.push_back(prepare(m));
+  has_transmission_ = std::any_of(materials_.begin(), materials_.end(),
+                                  [](const Prepared& m) { return m.reflectance.transmitted > 0; });
   prepare_lights(scene);
 }
 
@@ -119,8 +121,7 @@ Boundary LitScene::boundary(const Hit& hit) const {
   return {ior(hit.before), ior(hit.after), hit.after == medium_opaque};
 }
 
-Rgb LitScene::attenuation(MediumId medium, double length) const {
-  if (medium <= medium_opaque || medium >= media_.size()) return {1, 1, 1};
+Rgb LitScene::attenuation_inside(MediumId medium, double length) const {
   const Rgb& k = media_[medium].attenuation;
   // Nothing is taken off by 0 however long the way.
   const auto left = [length](double band) { return band > 0 ? std::exp(-band * length) : 1; };

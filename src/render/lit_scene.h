@@ -23,6 +23,9 @@ struct Reflectance {
   double transmitted = 0;  ///< kt; 0 where it is opaque
   double fresnel = 0;  ///< the share that is reflected beside `reflected`, by Fresnel; the rest of it is transmitted
   double ior = 1;      ///< of the material, for Fresnel where it is opaque
+
+  /// Whether rays go on from here.
+  bool sends_on() const { return reflected != Rgb{} || transmitted > 0 || fresnel > 0; }
 };
 
 /// A light that is drawn among all.
@@ -53,9 +56,14 @@ class LitScene {
   double ior(MediumId medium) const { return medium < media_.size() ? media_[medium].ior : 1.0; }
   Boundary boundary(const Hit& hit) const;
   /// What is left of light on its way through a medium.
-  Rgb attenuation(MediumId medium, double length) const;
+  Rgb attenuation(MediumId medium, double length) const {
+    const bool is_clear = medium <= medium_opaque || medium >= media_.size();
+    return is_clear ? Rgb{1, 1, 1} : attenuation_inside(medium, length);
+  }
   /// Whether light may go straight on through some boundary.
   bool has_unbent() const { return has_unbent_; }
+  /// Whether some material lets light through at all.
+  bool has_transmission() const { return has_transmission_; }
   /// @}
 
   /// @name Lights
@@ -95,6 +103,7 @@ class LitScene {
     Surface surface;
   };
 
+  Rgb attenuation_inside(MediumId medium, double length) const;
   const Prepared& prepared(MaterialId id) const { return materials_[id ? id.get() + 1 : 0]; }
   Prepared prepare(const Material& material);
   void prepare_lights(const Scene& scene);
@@ -102,7 +111,7 @@ class LitScene {
   AlbedoTables tables_;
   std::vector<Prepared> materials_;  // the default one, then those of the scene
   std::vector<Medium> media_;
-  bool has_unbent_ = false;
+  bool has_unbent_ = false, has_transmission_ = false;
   std::vector<LitLight> lights_;
   std::deque<Environment> environments_;
   const LitLight* around_ = nullptr;

@@ -1,5 +1,7 @@
 #include "render/tile_worker.h"
 
+#include <algorithm>
+
 #include "render/path.h"
 #include "render/pixel_samples.h"
 #include "render/whitted.h"
@@ -14,6 +16,19 @@ std::unique_ptr<Integrator> make_integrator(const LitScene& scene, const Acceler
     return std::make_unique<PathIntegrator>(scene, accelerator, Sampler(options.seed), options.depth);
   }
   return std::make_unique<WhittedIntegrator>(scene, accelerator, RecursionLimits{options.depth, options.threshold});
+}
+
+// Square by square: structures trace neighbours together, and squares lie closer together than rows.
+template <class Visit>
+void for_each_pixel(const PixelWindow& tile, const Visit& visit) {
+  constexpr int side = 8;
+  for (int y0 = tile.y0; y0 < tile.y1; y0 += side) {
+    for (int x0 = tile.x0; x0 < tile.x1; x0 += side) {
+      for (int y = y0; y < std::min(y0 + side, tile.y1); ++y) {
+        for (int x = x0; x < std::min(x0 + side, tile.x1); ++x) visit(x, y);
+      }
+    }
+  }
 }
 
 }  // namespace
@@ -50,18 +65,16 @@ void TileWorker::aim(const PixelWindow& tile, std::uint32_t index) {
   places_.resize(tile.pixels());
   const PixelSample shared = pixel_sample(index, samples_);
   std::size_t i = 0;
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    for (int x = tile.x0; x < tile.x1; ++x) {
-      const SampleId id = ids_[i] = {x, y, index};
-      RayQuery& query = queries_[i++];
-      const Sample2 place = is_random_ ? sampler_(id, sample_pair::pixel) : Sample2{shared.x, shared.y};
-      const Sample2 lens = camera_.has_lens() ? sampler_(id, sample_pair::lens) : Sample2{};
-      places_[i - 1] = {x + place.u, y + place.v};
-      query.ray = camera_.ray(x + place.u, y + place.v, lens.u, lens.v);
-      query.pixel_x = x;
-      query.pixel_y = y;
-    }
-  }
+  for_each_pixel(tile, [&](int x, int y) {
+    const SampleId id = ids_[i] = {x, y, index};
+    const Sample2 place = is_random_ ? sampler_(id, sample_pair::pixel) : Sample2{shared.x, shared.y};
+    const Sample2 lens = camera_.has_lens() ? sampler_(id, sample_pair::lens) : Sample2{};
+    places_[i] = {x + place.u, y + place.v};
+    RayQuery& query = queries_[i++];
+    query.ray = camera_.ray(x + place.u, y + place.v, lens.u, lens.v);
+    query.pixel_x = x;
+    query.pixel_y = y;
+  });
 }
 
 void TileWorker::add(std::size_t i, Film& film) {

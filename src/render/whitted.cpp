@@ -10,63 +10,99 @@ namespace tenon {
 
 void WhittedIntegrator::radiance(std::span<const RayQuery> primary, std::span<const Hit> hits,
                                  std::span<const SampleId>, std::span<Rgb> light, TraceContext& context) {
-  for (std::size_t i = 0; i < primary.size(); ++i) light[i] = radiance(primary[i].ray, hits[i], context);
+  std::fill(light.begin(), light.end(), Rgb{});
+  pending_.resize(std::max(pending_.size(), primary.size()));
+  nodes_.clear();
+  for (std::size_t i = 0; i < primary.size(); ++i)
+    nodes_.push_back({static_cast<std::uint32_t>(i), 1, {1, 1, 1}, {}, {}, {}});
+  std::span<const RayQuery> rays = primary;
+  for (;;) {
+    shade(rays, hits, light);
+    connect(rays, hits, context);
+    for (const std::uint32_t i : surfaces_) light[nodes_[i].tree] += nodes_[i].weight * nodes_[i].local;
+    if (!next_wave()) return;
+    hits_.resize(queries_.size());
+    accelerator_.first_hits(queries_, hits_, context);
+    rays = queries_;
+    hits = hits_;
+  }
 }
 
-Rgb WhittedIntegrator::radiance(const Ray& primary, const Hit& first, TraceContext& context) {
-  Rgb sum;
-  Ray ray = primary;
-  Hit hit = first;
-  Rgb weight{1, 1, 1};
-  int level = 1;
-  pending_.clear();
-  for (;;) {
+// What needs no shadow rays, and the rays that come next.
+void WhittedIntegrator::shade(std::span<const RayQuery> rays, std::span<const Hit> hits, std::span<Rgb> light) {
+  surfaces_.clear();
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Ray& ray = rays[i].ray;
+    const Hit& hit = hits[i];
+    Node& node = nodes_[i];
     const auto lamp = scene_.first_light(ray, hit.t + hit.bound);
     const MediumId medium = hit.found() ? hit.before : medium_outside;
-    weight = weight * scene_.attenuation(medium, lamp ? lamp->second.t : hit.t);
+    node.weight = node.weight * scene_.attenuation(medium, lamp ? lamp->second.t : hit.t);
     if (lamp) {
-      sum += weight * lamp->second.radiance;
+      light[node.tree] += node.weight * lamp->second.radiance;
     } else if (hit.found()) {
-      const Vec3 normal = dot(hit.normal, ray.direction) > 0 ? -hit.normal : hit.normal;
-      sum += weight * local_light(ray, hit, normal, context);
-      branch(ray, hit, normal, weight, level);
+      surfaces_.push_back(static_cast<std::uint32_t>(i));
+      node.normal = dot(hit.normal, ray.direction) > 0 ? -hit.normal : hit.normal;
+      const Reflectance& surface = scene_.reflectance(hit.material);
+      const Rgb color = scene_.color(hit);
+      node.local = scene_.emitted(hit) + surface.ambient * color * scene_.ambient();
+      node.diffuse = surface.diffuse * color;
+      branch(ray, hit, node);
     } else {
-      sum += weight * scene_.beyond(ray.direction, level == 1, true);
+      light[node.tree] += node.weight * scene_.beyond(ray.direction, node.level == 1, true);
     }
-    if (pending_.empty()) return sum;
-
-    const Pending next = std::move(pending_.back());
-    pending_.pop_back();
-    ray = next.ray;
-    weight = next.weight;
-    level = next.level;
-    RayQuery query;
-    query.ray = ray;
-    query.kind = next.kind;
-    query.from = &next.from;
-    hit = accelerator_.first_hit(query, context);
   }
 }
 
-Rgb WhittedIntegrator::local_light(const Ray& ray, const Hit& hit, const Vec3& normal, TraceContext& context) {
-  const Reflectance& surface = scene_.reflectance(hit.material);
-  const Rgb color = scene_.color(hit);
-  Rgb sum = scene_.emitted(hit) + surface.ambient * color * scene_.ambient();
-  const Rgb diffuse = surface.diffuse * color;
+// The light that comes straight from lights.
+void WhittedIntegrator::connect(std::span<const RayQuery> rays, std::span<const Hit> hits, TraceContext& context) {
+  shadow_queries_.clear();
+  shadow_rays_.clear();
   for (const LitLight& light : scene_.lights()) {
-    const IncidentLight incident = light.at(hit.point);
-    if (incident.light == Rgb{}) continue;
-    const Vec3 to_light = normalize(incident.to_light);
-    const double cos_light = dot(normal, to_light);
-    if (!(cos_light > 0)) continue;
-    const Rgb share = transmittance(hit, light, incident, context);
-    if (share == Rgb{}) continue;
-
-    const Vec3 half = normalize(to_light - ray.direction);
-    const double highlight = surface.specular * std::pow(std::max(0.0, dot(normal, half)), surface.shininess);
-    sum += share * (incident.light * (cos_light * diffuse + Rgb{highlight, highlight, highlight}));
+    for (const std::uint32_t i : surfaces_) {
+      const IncidentLight incident = light.at(hits[i].point);
+      if (incident.light == Rgb{}) continue;
+      const Vec3 to_light = normalize(incident.to_light);
+      const double cos = dot(nodes_[i].normal, to_light);
+      if (!(cos > 0)) continue;
+      const Ray ray{hits[i].point, incident.to_light};
+      if (scene_.is_blocked_by_light(ray, incident.t_max, &light)) continue;
+      RayQuery& query = shadow_queries_.emplace_back();
+      query.ray = ray;
+      query.t_max = incident.t_max;
+      query.kind = RayKind::shadow;
+      query.from = &hits[i];
+      shadow_rays_.push_back({i, &light, to_light, cos, incident.light});
+    }
   }
-  return sum;
+  find_shares(hits, context);
+  for (std::size_t k = 0; k < shadow_rays_.size(); ++k) {
+    if (shares_[k] == Rgb{}) continue;
+    const ShadowRay& ray = shadow_rays_[k];
+    Node& node = nodes_[ray.node];
+    const Reflectance& surface = scene_.reflectance(hits[ray.node].material);
+    Rgb factor = ray.cos * node.diffuse;
+    if (surface.specular > 0) {
+      const Vec3 half = normalize(ray.to_light - rays[ray.node].ray.direction);
+      const double highlight = surface.specular * std::pow(std::max(0.0, dot(node.normal, half)), surface.shininess);
+      factor += Rgb{highlight, highlight, highlight};
+    }
+    node.local += shares_[k] * (ray.incident * factor);
+  }
+}
+
+// How much of its light each shadow ray brings.
+void WhittedIntegrator::find_shares(std::span<const Hit> hits, TraceContext& context) {
+  shares_.resize(shadow_queries_.size());
+  if (scene_.has_transmission()) {
+    for (std::size_t k = 0; k < shares_.size(); ++k) {
+      shares_[k] = transmittance(shadow_queries_[k], shadow_rays_[k], hits[shadow_rays_[k].node], context);
+    }
+    return;
+  }
+  occluded_.resize(shadow_queries_.size());
+  accelerator_.occluded(shadow_queries_, occluded_, context);
+  for (std::size_t k = 0; k < shares_.size(); ++k) shares_[k] = occluded_[k] != 0 ? Rgb{} : Rgb{1, 1, 1};
 }
 
 // The share of the light that a boundary lets through to what lies straight behind it.
@@ -78,50 +114,66 @@ double WhittedIntegrator::transmitted(const Hit& boundary, const Vec3& direction
 }
 
 // What reaches the hit: each boundary on the way lets kt through.
-Rgb WhittedIntegrator::transmittance(const Hit& hit, const LitLight& light, const IncidentLight& incident,
+Rgb WhittedIntegrator::transmittance(const RayQuery& query, const ShadowRay& ray, const Hit& hit,
                                      TraceContext& context) {
-  RayQuery query;
-  query.ray = {hit.point, incident.to_light};
-  query.t_max = incident.t_max;
-  query.kind = RayKind::shadow;
-  query.from = &hit;
-  if (scene_.is_blocked_by_light(query.ray, query.t_max, &light)) return {};
   passed_.clear();
-  const Vec3 direction = normalize(incident.to_light);
   const auto stops = [&](const Hit& boundary) {
-    const double share = transmitted(boundary, direction);
+    const double share = transmitted(boundary, ray.to_light);
     if (!(share > 0)) return true;
     passed_.add(boundary, {share, share, share});
     return false;
   };
   if (accelerator_.any_hit(query, stops, context)) return {};
-  return passed_.left(scene_, hit.before, length(incident.to_light), incident.t_max);
+  return passed_.left(scene_, hit.before, length(query.ray.direction), query.t_max);
 }
 
-void WhittedIntegrator::branch(const Ray& ray, const Hit& hit, const Vec3& normal, const Rgb& weight, int level) {
-  if (level >= limits_.depth) return;
+void WhittedIntegrator::branch(const Ray& ray, const Hit& hit, const Node& node) {
+  if (node.level >= limits_.depth) return;
   const Reflectance& surface = scene_.reflectance(hit.material);
+  if (!surface.sends_on()) return;
   // An opaque solid behind the surface takes what the surface lets through.
   const bool lets_through = surface.transmitted > 0 && hit.after != medium_opaque;
   const double eta = scene_.ior(hit.before) / (lets_through ? scene_.ior(hit.after) : surface.ior);
-  const double fresnel = surface.fresnel > 0 ? fresnel_dielectric(-dot(normal, ray.direction), eta) : 0;
+  const double fresnel = surface.fresnel > 0 ? fresnel_dielectric(-dot(node.normal, ray.direction), eta) : 0;
   const double mirrored = surface.fresnel * fresnel;
   Rgb reflected = surface.reflected + Rgb{mirrored, mirrored, mirrored};
   if (lets_through) {
     const Rgb through = surface.fresnel > 0 ? surface.transmitted * (1 - fresnel) * scene_.color(hit)
                                             : surface.transmitted * Rgb{1, 1, 1};
-    if (const auto direction = refract(ray.direction, normal, eta)) {
-      push(hit, *direction, RayKind::refracted, weight * through, level + 1);
+    if (const auto direction = refract(ray.direction, node.normal, eta)) {
+      push(hit, *direction, RayKind::refracted, node.weight * through, node);
     } else {
       reflected += through;
     }
   }
-  push(hit, reflect(ray.direction, normal), RayKind::reflected, weight * reflected, level + 1);
+  push(hit, reflect(ray.direction, node.normal), RayKind::reflected, node.weight * reflected, node);
 }
 
-void WhittedIntegrator::push(const Hit& from, const Vec3& direction, RayKind kind, const Rgb& weight, int level) {
+void WhittedIntegrator::push(const Hit& from, const Vec3& direction, RayKind kind, const Rgb& weight,
+                             const Node& node) {
   if (std::max({weight.r, weight.g, weight.b}) <= limits_.threshold) return;
-  pending_.push_back({{from.point, direction}, kind, level, weight, from});
+  pending_[node.tree].push_back({{from.point, direction}, kind, node.level + 1, weight, from});
+}
+
+// Takes the next ray of each tree of the wave; false when all are done.
+bool WhittedIntegrator::next_wave() {
+  std::size_t count = 0;
+  queries_.clear();
+  from_.clear();
+  for (const Node& node : nodes_) {
+    std::vector<Pending>& pending = pending_[node.tree];
+    if (pending.empty()) continue;
+    Pending& next = pending.back();
+    RayQuery& query = queries_.emplace_back();
+    query.ray = next.ray;
+    query.kind = next.kind;
+    from_.push_back(std::move(next.from));
+    nodes_[count++] = {node.tree, next.level, next.weight, {}, {}, {}};
+    pending.pop_back();
+  }
+  nodes_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) queries_[i].from = &from_[i];
+  return count > 0;
 }
 
 }  // namespace tenon

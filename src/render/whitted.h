@@ -24,6 +24,11 @@ struct RecursionLimits {
 /// dielectrics share ks and kt by Fresnel, roughness is not seen, media attenuate.
 ///
 /// Nothing in it is drawn at random.
+///
+/// The trees of a call grow in waves. In each wave every tree that is not done has the one ray traced that would come
+/// next if it were followed alone; the structure is asked for the rays of a wave in one call, and in another for their
+/// shadow rays, as long as nothing in the scene lets light through. So the order in which a tree's light is added up
+/// does not depend on its neighbours, and no more rays wait than trees times levels.
 class WhittedIntegrator final : public Integrator {
  public:
   WhittedIntegrator(const LitScene& scene, const Accelerator& accelerator, const RecursionLimits& limits)
@@ -32,15 +37,8 @@ class WhittedIntegrator final : public Integrator {
   void radiance(std::span<const RayQuery> primary, std::span<const Hit> hits, std::span<const SampleId> samples,
                 std::span<Rgb> light, TraceContext& context) override;
 
-  /// The light that comes back along a ray of length 1.
-  /// @param ray      the ray
-  /// @param hit      what it meets first; not found: the background
-  /// @param context  of this thread
-  Rgb radiance(const Ray& ray, const Hit& hit, TraceContext& context);
-
  private:
-  // A ray still to be traced. The sum over the tree of rays is taken path by path, each weighted with its cumulative
-  // product ("How to stop tracing rays?"), so no depth of the tree needs a deep call stack.
+  // A ray still to be traced.
   struct Pending {
     Ray ray;
     RayKind kind;
@@ -48,17 +46,45 @@ class WhittedIntegrator final : public Integrator {
     Rgb weight;
     Hit from;
   };
+  // A ray of the wave: the node of a tree where it ends.
+  struct Node {
+    std::uint32_t tree;
+    int level;
+    Rgb weight;
+    Vec3 normal;  // against the ray
+    Rgb diffuse;  // kd C
+    Rgb local;    // what surface and lights send back along it
+  };
+  struct ShadowRay {
+    std::uint32_t node;
+    const LitLight* light;
+    Vec3 to_light;  // length 1
+    double cos;     // to the normal
+    Rgb incident;
+  };
 
-  Rgb local_light(const Ray& ray, const Hit& hit, const Vec3& normal, TraceContext& context);
-  Rgb transmittance(const Hit& hit, const LitLight& light, const IncidentLight& incident, TraceContext& context);
+  void shade(std::span<const RayQuery> rays, std::span<const Hit> hits, std::span<Rgb> light);
+  void connect(std::span<const RayQuery> rays, std::span<const Hit> hits, TraceContext& context);
+  void find_shares(std::span<const Hit> hits, TraceContext& context);
+  Rgb transmittance(const RayQuery& query, const ShadowRay& ray, const Hit& hit, TraceContext& context);
   double transmitted(const Hit& boundary, const Vec3& direction) const;
-  void branch(const Ray& ray, const Hit& hit, const Vec3& normal, const Rgb& weight, int level);
-  void push(const Hit& from, const Vec3& direction, RayKind kind, const Rgb& weight, int level);
+  void branch(const Ray& ray, const Hit& hit, const Node& node);
+  void push(const Hit& from, const Vec3& direction, RayKind kind, const Rgb& weight, const Node& node);
+  bool next_wave();
 
   const LitScene& scene_;
   const Accelerator& accelerator_;
   RecursionLimits limits_;
-  std::vector<Pending> pending_;
+
+  std::vector<std::vector<Pending>> pending_;  // by tree, the next one last
+  std::vector<Node> nodes_;                    // of the wave
+  std::vector<RayQuery> queries_;
+  std::vector<Hit> from_, hits_;
+  std::vector<std::uint32_t> surfaces_;  // the nodes that lie on one
+  std::vector<RayQuery> shadow_queries_;
+  std::vector<ShadowRay> shadow_rays_;
+  std::vector<Rgb> shares_;
+  std::vector<std::uint8_t> occluded_;
   PassedBoundaries passed_;
 };
 

@@ -39,6 +39,19 @@ TEST(ExactSum, OfFloatsThatAreLightIsExact) {
   EXPECT_EQ(sum.value(), 0x1.fffffep-17 + 0x1.000002p-40 + 3 + static_cast<double>(-0.1F));
 }
 
+TEST(ExactSum, CountsEveryDoubleInWholeSteps) {
+  const std::uint64_t seed = 72;
+  SCOPED_TRACE(seed);
+  Random random(seed);
+  for (int i = 0; i < 10000; ++i) {
+    const double value = random.sign() * random.magnitude(-22, 12);
+    const double steps = std::nearbyint(value * 0x1p64);
+    WideSum sum;
+    sum.add(value);
+    EXPECT_EQ(sum.units(), static_cast<Int128>(steps)) << value;
+  }
+}
+
 TEST(ExactSum, HoldsAsManyOfTheLargestAsAPixelHasSamples) {
   ShareSum shares;
   WideSum wide;

@@ -66,7 +66,11 @@ struct World {
     const auto context = accelerator.make_context();
     const LitScene lit(scene);
     WhittedIntegrator integrator(lit, accelerator, {depth, 0});
-    return integrator.radiance(query.ray, accelerator.first_hit(query, *context), *context).g;
+    const Hit hit = accelerator.first_hit(query, *context);
+    const SampleId sample{};
+    Rgb light;
+    integrator.radiance({&query, 1}, {&hit, 1}, {&sample, 1}, {&light, 1}, *context);
+    return light.g;
   }
 };
 

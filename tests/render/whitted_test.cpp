@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "render/analytic_accelerator.h"
+#include "support/random.h"
 #include "tenon/render/renderer.h"
 
 namespace tenon {
@@ -58,17 +59,29 @@ class Whitted : public testing::Test {
     solids.push_back(solid);
   }
 
-  Rgb radiance(const Vec3& origin, const Vec3& direction, RecursionLimits limits = {20, 0}) {
+  std::vector<Rgb> radiance(const std::vector<RayQuery>& queries, std::size_t at_once, const RecursionLimits& limits) {
     AnalyticAccelerator accelerator(solids);
     if (reversed) accelerator.reverse_shadow_order();
     const auto context = accelerator.make_context();
     const LitScene lit(scene);
     WhittedIntegrator integrator(lit, accelerator, limits);
-    RayQuery query;
-    query.ray = {origin, normalize(direction)};
-    const Rgb light = integrator.radiance(query.ray, accelerator.first_hit(query, *context), *context);
+    std::vector<Hit> hits(queries.size());
+    accelerator.first_hits(queries, hits, *context);
+    const std::vector<SampleId> samples(queries.size());
+    std::vector<Rgb> light(queries.size());
+    for (std::size_t i = 0; i < queries.size(); i += at_once) {
+      const std::size_t n = std::min(at_once, queries.size() - i);
+      integrator.radiance(std::span(queries).subspan(i, n), std::span(hits).subspan(i, n),
+                          std::span(samples).subspan(i, n), std::span(light).subspan(i, n), *context);
+    }
     statistics = context->statistics;
     return light;
+  }
+
+  Rgb radiance(const Vec3& origin, const Vec3& direction, const RecursionLimits& limits = {20, 0}) {
+    RayQuery query;
+    query.ray = {origin, normalize(direction)};
+    return radiance({query}, 1, limits).front();
   }
 
   Scene scene;
@@ -271,6 +284,30 @@ TEST_F(Whitted, IndexOneBendsNothing) {
   add(AnalyticBall{{0.5, 0, -100}, 1e-6}, far);
   scene.ambient = {1, 1, 1};
   EXPECT_EQ(radiance({0.5, 0, 100}, {0, 0, -1}), (Rgb{0, 0, 1}));
+}
+
+// Trees of very different sizes grow together: in a mirror, in glass, on the floor, and nowhere.
+TEST_F(Whitted, RaysOfACallDoNotKnowOfEachOther) {
+  add(AnalyticSlab{-2, -1}, matt());
+  add(AnalyticBall{{-1.2, 0, 0}, 1}, mirror(0.7));
+  scene.background = {0.1, 0.3, 0.5};
+  scene.ambient = {0.2, 0.1, 0.1};
+  scene.lights = {point_light({2, -3, 5}), point_light({-4, 1, 6})};
+  scene.lights[1].color = Rgba{1, 0.5, 0.25, 1};
+  const std::uint64_t seed = 31;
+  SCOPED_TRACE(seed);
+  Random random(seed);
+  for (const bool has_glass : {false, true}) {
+    if (has_glass) {
+      Material both = glass(0.7, 1.5);
+      both.ks = 0.3;
+      add(AnalyticBall{{1.2, 0, 0}, 1}, both);
+    }
+    std::vector<RayQuery> queries(150);
+    for (RayQuery& query : queries)
+      query.ray = {{0, -6, 1}, normalize({random.uniform(-3, 3), 6, random.uniform(-3, 1)})};
+    EXPECT_EQ(radiance(queries, queries.size(), {7, 0}), radiance(queries, 1, {7, 0}));
+  }
 }
 
 TEST_F(Whitted, DepthEndsTheTreeOfRays) {

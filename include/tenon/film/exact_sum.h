@@ -31,8 +31,12 @@ class ExactSum {
     // Not clamp(): what compares false with everything is to end as 0.
     const double bounded = value > 0 ? std::min(value, limit()) : value < 0 ? std::max(value, -limit()) : 0;
     const double units = bounded * power_of_two(fraction_bits);
-    // From 2^52 on every double is whole.
-    units_ += static_cast<Integer>(std::fabs(units) < 0x1p52 ? std::nearbyint(units) : units);
+    // From 2^52 on every double is whole, up to 2^63 int64_t holds it, and is sooner made of it than more bits.
+    if (std::fabs(units) < 0x1p52) {
+      units_ += static_cast<std::int64_t>(std::nearbyint(units));
+    } else {
+      units_ += std::fabs(units) < 0x1p63 ? static_cast<std::int64_t>(units) : whole(units);
+    }
   }
   ExactSum& operator+=(const ExactSum& other) { return units_ += other.units_, *this; }
 
@@ -48,6 +52,14 @@ class ExactSum {
     for (int i = 0; i < exponent; ++i) power *= 2;
     for (int i = 0; i > exponent; --i) power /= 2;
     return power;
+  }
+
+  // A double of at least 2^52: its significand, shifted.
+  static Integer whole(double units) {
+    const auto bits = std::bit_cast<std::uint64_t>(std::fabs(units));
+    const auto significand = static_cast<Integer>((bits & ((std::uint64_t{1} << 52U) - 1)) | std::uint64_t{1} << 52U);
+    const Integer size = significand << (static_cast<int>(bits >> 52U) - 1075);
+    return units < 0 ? -size : size;
   }
 
   Integer units_ = 0;
