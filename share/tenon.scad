@@ -42,6 +42,11 @@ module tenon_outline(outline) {
 module prism(outline, h = 1, center = false, scale = 1)
   linear_extrude(height = h, center = center, scale = scale) tenon_outline(outline);
 
+// An outline swept along z while it turns and is scaled.
+module twisted_prism(outline, h = 1, center = false, twist = 0, scale_x = 1, scale_y = 1)
+  linear_extrude(height = h, center = center, twist = twist, scale = [scale_x, scale_y], slices = 100)
+    tenon_outline(outline);
+
 // An outline turned around z.
 module revolution(outline) rotate_extrude() tenon_outline(outline);
 

@@ -6,6 +6,8 @@
 #include "lang/format.h"
 #include "lang/primitive_arguments.h"
 #include "lang/turned_shapes.h"
+#include "lang/twisted_shapes.h"
+#include "math/vec2.h"
 
 namespace tenon::lang {
 
@@ -114,17 +116,16 @@ std::optional<Solid> polygon(ModuleCall& call) {
   return make_polygon(call, std::move(outline));
 }
 
-// A number, or two where both are the same.
-double require_even_scale(const ModuleArguments& arguments, std::size_t index) {
-  if (!arguments.given(index)) return 1;
+// A number for both directions, or a list of two.
+Vec2 require_scale(const ModuleArguments& arguments, std::size_t index) {
+  if (!arguments.given(index)) return {1, 1};
   const double* number = arguments[index].number();
   const auto two = to_vec3(arguments[index], 1);
   if (!number && !two) fail(arguments.at(index), "'scale' must be a number or a list of two");
-  if (two && two->x != two->y) {
-    fail(arguments.at(index), "linear_extrude() with different scales along x and y is not supported yet");
+  const Vec2 scale = number ? Vec2{*number, *number} : Vec2{two->x, two->y};
+  if (!(scale.x >= 0 && scale.y >= 0) || !std::isfinite(scale.x + scale.y)) {
+    fail(arguments.at(index), "'scale' must be at least 0");
   }
-  const double scale = number ? *number : two->x;
-  if (!(scale >= 0) || !std::isfinite(scale)) fail(arguments.at(index), "'scale' must be at least 0");
   return scale;
 }
 
@@ -134,11 +135,9 @@ std::optional<Solid> linear_extrude(ModuleCall& call) {
   const ModuleArguments arguments(call, names, UnknownArgument::warn);
   if (arguments.given(7)) fail(arguments.at(7), "linear_extrude() of a file is not supported yet");
   const double twist = number_argument(call, arguments, 3, "twist").value_or(0);
-  if (twist != 0) {
-    fail(arguments.at(3), "linear_extrude() with a twist is not supported yet; remove 'twist', or disable it with '*'");
-  }
+  const double* slices = arguments[4].number();
   const double height = number_argument(call, arguments, 0, "height").value_or(100);
-  const double scale = require_even_scale(arguments, 5);
+  const Vec2 scale = require_scale(arguments, 5);
   const bool* center = arguments[1].boolean();
   Solid shape = flat_children(call);
   if (shape.is_nothing()) return shape;
@@ -147,7 +146,14 @@ std::optional<Solid> linear_extrude(ModuleCall& call) {
                                       "linear_extrude() with height = " + format_number(height) + " has no volume");
     return Solid::nothing();
   }
-  if (scale != 1) shape = tapered(call.evaluator, shape, scale, call.at());
+  if (twist != 0 || scale.x != scale.y) {
+    if (slices && twist != 0 && *slices < facets_threshold) {
+      call.evaluator.environment().warn(arguments.at(4), "linear_extrude() is smooth here; 'slices' is ignored");
+    }
+    shape = twisted(call.evaluator, shape, {twist, scale.x, scale.y}, call.at());
+  } else if (scale.x != 1) {
+    shape = tapered(call.evaluator, shape, scale.x, call.at());
+  }
   Affine3 stretch = Affine3::scale({1, 1, height});
   if (center && *center) stretch.m[2][3] = -height / 2;
   Solid solid = call.evaluator.builder().wrap(Transform{stretch}, {shape});

@@ -17,6 +17,7 @@
 #include "primitive/sphere.h"
 #include "primitive/torus.h"
 #include "primitive/truncated_cone.h"
+#include "primitive/twisted_prism.h"
 
 namespace tenon {
 
@@ -26,6 +27,6 @@ struct PrimitiveList {};
 /// Every kind of primitive, in the order of PrimitiveStore::kinds(). For the dispatch unit and the store only.
 using AllPrimitives =
     PrimitiveList<Sphere, Box, Cylinder, Cone, Torus, Hyperboloid, Paraboloid, HalfSpace, ConvexPolyhedron, Prism,
-                  Revolution, Mesh, Quadric, TruncatedCone, Algebraic, Polygon3d, Bicubic>;
+                  Revolution, TwistedPrism, Mesh, Quadric, TruncatedCone, Algebraic, Polygon3d, Bicubic>;
 
 }  // namespace tenon

@@ -141,4 +141,22 @@ bool find_boundary_crossings(std::vector<EdgeCrossing>& crossings, const Searche
   return ClusterWalk(crossings, part, is_inside, clusters).run(found);
 }
 
+void emit_between_caps(const Chord& slab, const std::vector<BoundaryCrossing>& boundary, bool inside,
+                       std::uint32_t first_wall, Spans& out) {
+  const std::size_t first = out.size();
+  End enter = slab.enter;
+  for (const BoundaryCrossing& c : boundary) {
+    End end = c.end;
+    end.face += first_wall;
+    if (c.entering) {
+      enter = later(slab.enter, end);
+    } else {
+      emit_chord({enter, earlier(slab.leave, end)}, out);
+    }
+    inside = c.entering;
+  }
+  if (inside) emit_chord({enter, slab.leave}, out);
+  put_in_order(first, out);
+}
+
 }  // namespace tenon

@@ -42,6 +42,15 @@ struct BoundaryCrossing {
 bool find_boundary_crossings(std::vector<EdgeCrossing>& crossings, const SearchedPart& part,
                              FunctionRef<bool(double)> is_inside, std::vector<BoundaryCrossing>& found);
 
+/// Reports the parts of a swept outline between its caps.
+///
+/// @param slab        the part of the line between the caps
+/// @param boundary    the crossings of the outline's boundary, in order
+/// @param inside      whether the line is inside of the outline before the first of them
+/// @param first_wall  is added to the numbers of their faces
+void emit_between_caps(const Chord& slab, const std::vector<BoundaryCrossing>& boundary, bool inside,
+                       std::uint32_t first_wall, Spans& out);
+
 /// The number of a face of a swept outline: its edge, and whether the solid lies on the side that the edge's normal
 /// points to. By the even-odd rule that may differ along one edge.
 inline std::uint32_t face_of_edge(std::uint32_t edge, bool rising, bool entering) {

@@ -309,20 +309,8 @@ void Prism::spans(const LocalRay& ray, Spans& out) const {
   const auto is_inside = [&](double t) {
     return line.is_before_tip(t) && (line.lies_in_segment(t) || edges_.contains(line.at(t)));
   };
-  bool inside = find_boundary_crossings(crossings, line.part(), is_inside, boundary);
-  const std::size_t first = out.size();
-  End enter = slab.enter;
-  for (BoundaryCrossing& c : boundary) {
-    c.end.face += walls;
-    if (c.entering) {
-      enter = later(slab.enter, c.end);
-    } else {
-      emit_chord({enter, earlier(slab.leave, c.end)}, out);
-    }
-    inside = c.entering;
-  }
-  if (inside) emit_chord({enter, slab.leave}, out);
-  put_in_order(first, out);
+  const bool inside = find_boundary_crossings(crossings, line.part(), is_inside, boundary);
+  emit_between_caps(slab, boundary, inside, walls, out);
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include <ostream>
 
 #include "accel/random_solids.h"
+#include "support/meshes.h"
 
 /// The scenes that every structure is tried on.
 namespace tenon::gallery {
@@ -212,6 +213,38 @@ inline CsgTree surfaces_scene() {
                b.translate({3, 3, 2}, b.subtract({window, b.rotate({0, 0, 30}, chisel)}))}));
 }
 
+/// Meshes by either structure within, cut by one another and by what has their faces.
+inline CsgTree meshes_scene() {
+  SceneBuilder b;
+  const auto mesh = [&](TriangleMesh triangles, MeshStructure local) {
+    triangles.local = local;
+    return b.primitive("mesh", {meshes::share(std::move(triangles)), false});
+  };
+  const auto ball = meshes::star(3, [](const Vec3& d) { return 1 + 0.2 * d.x * d.y; });
+  const SceneNodeId bitten =
+      b.subtract({mesh(ball, MeshStructure::bvh), b.translate({0.3, 0.1, 0.2}, mesh(ball, MeshStructure::kd)),
+                  mesh(meshes::ring(0.9, 0.3, 12, 8), MeshStructure::kd)});
+  const SceneNodeId block = mesh(meshes::box({0, 0, 0}, {1, 1, 1}), MeshStructure::bvh);
+  const SceneNodeId flush = b.subtract({block, b.cube({1, 0.5, 0.5}), b.translate({0.5, 0.5, 0}, b.cylinder(1, 0.25))});
+  return b.tree(
+      b.unite({bitten, b.translate({1.2, 0, 0}, flush), b.translate({-1, -2, 0}, b.rotate({30, 40, 50}, block))}));
+}
+
+/// Twisted prisms in one another, and with walls and caps of others in theirs.
+inline CsgTree twisted_scene() {
+  SceneBuilder b;
+  const Outline slot{{{{-1, -0.5, 0}, {1, -0.5, 1}, {1, 0.5, 0}, {-1, 0.5, 1}}}};
+  const Outline frame{
+      {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0, 0.5, 0}}}};
+  const auto twist = [&](const Outline& outline, double h, double degrees, double scale_x, double scale_y) {
+    return b.primitive("twisted_prism", {outline, h, false, degrees, scale_x, scale_y});
+  };
+  const SceneNodeId drill = b.subtract({b.cylinder(2, 1), b.translate({0.9, 0, 0}, twist(slot, 2, 200, 1, 1))});
+  const SceneNodeId column =
+      b.subtract({twist(frame, 3, 90, 0.5, 1), b.cube({2, 2, 1}, true), twist(slot, 1.5, 45, 0.75, 1)});
+  return b.tree(b.unite({drill, b.translate({3, 0, 0}, column), b.translate({0, 3, 0}, twist(slot, 1, 0, 0.25, 2))}));
+}
+
 inline CsgTree lattice_scene(std::uint64_t seed, const Vec3& degrees) {
   SceneBuilder b;
   return b.tree(b.rotate(degrees, lattice_node(b, seed)));
@@ -251,6 +284,8 @@ inline constexpr Scene scenes[] = {
     {"room", room_scene},
     {"outlines", outlines_scene},
     {"surfaces", surfaces_scene},
+    {"meshes", meshes_scene},
+    {"twisted", twisted_scene},
     {"one",
      [] {
        SceneBuilder b;

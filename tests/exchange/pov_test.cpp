@@ -110,6 +110,7 @@ TEST(Pov, EveryPrimitiveIsWrittenOrRefusedByName) {
       {"revolution", "rotate_extrude() translate([2, 0]) circle(1);"},
       {"truncated_cone", "truncated_cone(h = 2, a1 = 1, b1 = 0.5, a2 = 0.5, b2 = 1);"},
       {"bicubic", "bicubic([for (y = [0 : 3]) [for (x = [0 : 3]) [x, y, x == 0 || x == 3 ? 0 : 1]]]);"},
+      {"twisted_prism", "linear_extrude(2, twist = 90) square(1);"},
       {"mesh",
        "polyhedron([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4], [0.5, 0.5, 0.5]],"
        " [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 4], [3, 2, 4], [2, 1, 4]]);"}};

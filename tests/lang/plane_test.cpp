@@ -55,13 +55,25 @@ TEST(LinearExtrude, ScaledMakesConesAndPrismsThatTaper) {
       << tree;
 }
 
+TEST(LinearExtrude, TwistedMovesTheOutlinesThatTurn) {
+  const std::string tree = tree_of(
+      "linear_extrude(10, twist = 90, scale = [1, 0.5]) translate([1, 2]) mirror([1, 0]) { circle(2); square(1); }");
+  EXPECT_NE(
+      tree.find("twisted_prism(outline = [[[1, 0, -1], [1, 4, -1]]], h = 1, center = false, twist = 90, scale_x = 1, "
+                "scale_y = 0.5)"),
+      std::string::npos)
+      << tree;
+  EXPECT_NE(tree.find("outline = [[[1, 2], [0, 2], [0, 3], [1, 3]]]"), std::string::npos) << tree;
+  EXPECT_NE(warnings_of("linear_extrude(10, twist = 90, slices = 4) square();").find("'slices' is ignored"),
+            std::string::npos);
+  EXPECT_EQ(warnings_of("linear_extrude(10, twist = 90, slices = 40) square();"), "");
+  EXPECT_NE(tree_of("linear_extrude(10, twist = 90, scale = 0) square();").find("scale_x = 0, scale_y = 0"),
+            std::string::npos);
+}
+
 TEST(LinearExtrude, SaysWhatItCannotDo) {
-  EXPECT_EQ(
-      message_of("linear_extrude(10, twist = 90) square();"),
-      "scene.scad:1:20: error: linear_extrude() with a twist is not supported yet; remove 'twist', or disable it with "
-      "'*'");
-  EXPECT_EQ(message_of("linear_extrude(10, scale = [1, 2]) square();"),
-            "scene.scad:1:20: error: linear_extrude() with different scales along x and y is not supported yet");
+  EXPECT_NE(message_of("linear_extrude(10, twist = 1e6) square();").find("twists end at 360000 degrees"),
+            std::string::npos);
   EXPECT_EQ(message_of("linear_extrude(10, scale = -1) square();"),
             "scene.scad:1:20: error: 'scale' must be at least 0");
   EXPECT_NE(warnings_of("linear_extrude(10) cube(); cube();").find("its children are solids"), std::string::npos);

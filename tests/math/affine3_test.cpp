@@ -35,7 +35,8 @@ TEST(Degrees, AgreeWith113BitsToTwoUnits) {
   Random random(1);
   for (int i = 0; i < 20'000; ++i) {
     const double a = random.chance(0.2) ? std::round(random.uniform(-1000, 1000)) : random.uniform(-1000, 1000);
-    const double s = static_cast<double>(exact::sine(a)), c = static_cast<double>(exact::cosine(a));
+    const double s = static_cast<double>(exact::sine(exact::Quad(a))),
+                 c = static_cast<double>(exact::cosine(exact::Quad(a)));
     EXPECT_NEAR(sin_degrees(a), s, 4 * unit_roundoff * std::fabs(s)) << a;
     EXPECT_NEAR(cos_degrees(a), c, 4 * unit_roundoff * std::fabs(c)) << a;
   }

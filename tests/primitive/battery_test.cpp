@@ -24,6 +24,9 @@ class Battery : public EveryKind {
         << "oracle.h has no definition of " << kind().name << "; add one";
   }
 
+  // Sines in 113 bits take so long that fewer rays must do.
+  bool has_dear_definition() const { return kind().name == "twisted_prism"; }
+
   // The part of a ray around the solid, as middle and half length in t.
   static std::pair<double, double> around(const RandomSolid& solid, const LocalRay& ray) {
     const double a = dot(ray.direction, ray.direction);
@@ -64,7 +67,8 @@ TEST_P(Battery, CrossingsAgreeWithTheDefinitionOnAMillionRays) {
 
 TEST_P(Battery, CrossingsAgreeWithTheDefinitionIn113Bits) {
   Random random(seed() + 1);
-  for (int n = 0; n < 100'000; n += rays_per_solid) {
+  const int rays = has_dear_definition() ? 10'000 : 100'000;
+  for (int n = 0; n < rays; n += rays_per_solid) {
     const RandomSolid solid(kind(), random);
     Spans out;
     for (int i = 0; i < rays_per_solid; ++i) {
@@ -80,7 +84,8 @@ TEST_P(Battery, CrossingsAgreeWithTheDefinitionIn113Bits) {
 // The ray is known to within errors; the exact line is any other within them.
 TEST_P(Battery, BoundsHoldForEveryLineWithinTheErrors) {
   Random random(seed());
-  for (int n = 0; n < 20'000; n += rays_per_solid) {
+  const int rays = has_dear_definition() ? 4'000 : 20'000;
+  for (int n = 0; n < rays; n += rays_per_solid) {
     const RandomSolid solid(kind(), random);
     const oracle::Solid<Quad> definition(kind().name, solid.values);
     Spans out;
@@ -183,11 +188,11 @@ TEST_P(Battery, NormalsAreGradients) {
       // Where the gradient vanishes (the tip of a cone, the middle of a horn torus) no normal is promised.
       const Vec3 n1 = normalize(g), n2 = normalize(normal(solid.store, solid.id, p, c.face));
       const double bend = length(p) * 1e-12 / solid.size;
-      const bool at_tip =
-          g == Vec3{} ||
-          length(
-              definition.gradient(Vec<Quad>(p + 1e-6 * solid.size * n1), c.face, Quad(solid.size) * 0x1p-40).rounded() -
-              g) > 0.1 * length(g);
+      const auto turns_beside = [&](double distance) {
+        const Vec<Quad> beside(p + distance * solid.size * n1);
+        return length(definition.gradient(beside, c.face, Quad(solid.size) * 0x1p-40).rounded() - g) > 0.1 * length(g);
+      };
+      const bool at_tip = g == Vec3{} || turns_beside(1e-6) || turns_beside(-1e-6);
       if (at_tip) continue;
       EXPECT_GT(dot(n1, n2), 1 - 1e-9 - bend)
           << "face " << c.face << describe(p, ray.direction) << describe(solid.values);

@@ -182,6 +182,29 @@ struct Definitions {
     return z >= 0 && z <= h && s > 0 && outline_contains(std::get<Outline>(v[0]), p.x / s, p.y / s);
   }
 
+  // Where the outline that is swept, turned and scaled has a point; false where it has shrunk to nothing.
+  static bool untwisted(const Values& v, const Vec<T>& p, T& x, T& y, T& sx, T& sy) {
+    const T h = number(v, 1), share = (flag(v, 2) ? p.z + h / 2 : p.z) / h;
+    sx = 1 + (T(number(v, 4)) - 1) * share;
+    sy = 1 + (T(number(v, 5)) - 1) * share;
+    if (!(sx > 0 && sy > 0)) return false;
+    const T angle = T(number(v, 3)) * share, s = exact::sine(angle), c = exact::cosine(angle);
+    x = c * p.x / sx - s * p.y / sy;
+    y = s * p.x / sx + c * p.y / sy;
+    return true;
+  }
+  static void twisted_prism(const Values& v, const Vec<T>& p, Faces<T>& f) {
+    const T h = number(v, 1);
+    between(f, flag(v, 2) ? p.z + h / 2 : p.z, T(0), h);
+    T x, y, sx, sy;
+    if (untwisted(v, p, x, y, sx, sy)) outline_faces(std::get<Outline>(v[0]), x, y, sx * sy, f);
+  }
+  static bool is_in_twisted_prism(const Values& v, const Vec<T>& p) {
+    const T h = number(v, 1), z = flag(v, 2) ? p.z + h / 2 : p.z;
+    T x, y, sx, sy;
+    return z >= 0 && z <= h && untwisted(v, p, x, y, sx, sy) && outline_contains(std::get<Outline>(v[0]), x, y);
+  }
+
   static void revolution(const Values& v, const Vec<T>& p, Faces<T>& f) {
     outline_faces(std::get<Outline>(v[0]), exact::square_root(across(p)), p.z, T(1), f);
   }
@@ -223,10 +246,11 @@ struct Definitions {
   /// Whether a point is inside, for kinds whose faces do not all bound it everywhere; null for the others.
   using Membership = bool (*)(const Values&, const Vec<T>&);
   static Membership find_membership(std::string_view kind) {
-    return kind == "prism"        ? is_in_prism
-           : kind == "revolution" ? is_in_revolution
-           : kind == "mesh"       ? mesh_contains
-                                  : nullptr;
+    return kind == "prism"           ? is_in_prism
+           : kind == "twisted_prism" ? is_in_twisted_prism
+           : kind == "revolution"    ? is_in_revolution
+           : kind == "mesh"          ? mesh_contains
+                                     : nullptr;
   }
 
   static Definition find(std::string_view kind) {
@@ -242,6 +266,7 @@ struct Definitions {
         {"convex_polyhedron", convex_polyhedron},
         {"prism", prism},
         {"revolution", revolution},
+        {"twisted_prism", twisted_prism},
         {"mesh", mesh},
         {"quadric", quadric},
         {"truncated_cone", truncated_cone},

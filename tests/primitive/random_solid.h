@@ -51,6 +51,10 @@ class RandomValues {
         values.emplace_back(false);
         continue;
       }
+      if (field.name == "twist") {
+        values.emplace_back(random_.chance(0.2) ? 0.0 : random_.chance(0.2) ? 90.0 : random_.uniform(-400, 400));
+        continue;
+      }
       values.push_back(std::visit([this](const auto& fallback) { return FieldValue(like(fallback)); }, field.fallback));
     }
     return values;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 #include "tenon/math/affine3.h"
 #include "tenon/math/vec3.h"
@@ -70,6 +71,13 @@ inline Quad cosine(Quad degrees) {
   return sine(90 - degrees);
 }
 
+inline long double sine(long double degrees) {
+  return std::sin(std::remainder(degrees, 360.0L) * (std::numbers::pi_v<long double> / 180));
+}
+inline long double cosine(long double degrees) {
+  return std::cos(std::remainder(degrees, 360.0L) * (std::numbers::pi_v<long double> / 180));
+}
+
 /// An affine map p -> L p + b.
 struct Map {
   Quad m[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
@@ -85,8 +93,8 @@ struct Map {
   static Map around(int axis, double degrees) {
     Map r;
     const int i = (axis + 1) % 3, j = (axis + 2) % 3;
-    r.m[i][i] = r.m[j][j] = cosine(degrees);
-    r.m[j][i] = sine(degrees);
+    r.m[i][i] = r.m[j][j] = cosine(Quad{degrees});
+    r.m[j][i] = sine(Quad{degrees});
     r.m[i][j] = -r.m[j][i];
     return r;
   }

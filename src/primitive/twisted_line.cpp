@@ -1,0 +1,251 @@
+#include "primitive/twisted_line.h"
+
+#include <cmath>
+
+namespace tenon {
+
+namespace {
+
+// Beyond this an interval has no middle of its own.
+constexpr int deepest = 60;
+// Looks at one edge along one piece of the line; a line that runs along a wall just beside it would take ever more.
+constexpr int most_looks = 512;
+
+}  // namespace
+
+// Where the line is within a time; the product and the sum round.
+Ball TwistedLine::coordinate(int axis, double t, double half_width) const {
+  const double o = ray_.origin[axis], d = ray_.direction[axis];
+  const double oe = ray_.origin_error[axis], de = ray_.direction_error[axis];
+  const double moved = t * d;
+  const double away = (std::fabs(d) + de) * half_width;
+  return Ball::rounded(o + moved, oe + std::fabs(t) * de + unit_roundoff * std::fabs(moved) + away);
+}
+
+template <class Arithmetic>
+TwistedLine::Motion<typename Arithmetic::Number> TwistedLine::move(
+    const Arithmetic& with, const typename Arithmetic::Number (&point)[3]) const {
+  using Number = typename Arithmetic::Number;
+  const Number height = with.subtract(point[2], with.constant({sweep_.low, 0}));
+  // The share, with the rounding of 1 / height.
+  const Number share = with.multiply(Ball::rounded(sweep_.per_height, 0), height);
+  Motion<Number> m{point[0], point[1], with.constant({1, 0})};
+  if (sweep_.growth_x != 0 || sweep_.growth_y != 0) {
+    const Number sx = with.add(m.s, with.multiply(Ball::rounded(sweep_.growth_x, 0), share));
+    const Number sy = with.add(m.s, with.multiply(Ball::rounded(sweep_.growth_y, 0), share));
+    m = {with.multiply(point[0], sy), with.multiply(point[1], sx), with.multiply(sx, sy)};
+  }
+  if (sweep_.quarter_turns == 0) return m;
+  Number sine, cosine;
+  with.sine_cosine(with.multiply(Ball::rounded(sweep_.quarter_turns, 0), share), sine, cosine);
+  return {with.subtract(with.multiply(cosine, m.ux), with.multiply(sine, m.uy)),
+          with.add(with.multiply(sine, m.ux), with.multiply(cosine, m.uy)), m.s};
+}
+
+TwistedLine::Motion<Enclosure> TwistedLine::move_over(const Interval& interval) const {
+  const double t = interval.middle(), half = interval.half_width();
+  const auto along = [&](int axis) {
+    const Ball speed{ray_.direction[axis], ray_.direction_error[axis]};
+    return Enclosure::of(coordinate(axis, t, 0), speed, {0, 0}, half);
+  };
+  return move(EnclosureArithmetic(half), {along(0), along(1), along(2)});
+}
+
+TwistedLine::Motion<Ball> TwistedLine::move_within(const Interval& interval) const {
+  const double t = interval.middle(), half = interval.half_width();
+  return move(BallArithmetic(), {coordinate(0, t, half), coordinate(1, t, half), coordinate(2, t, half)});
+}
+
+// q of the edge (outline_edges.h) at U / S, times S, and for an arc times S once more.
+template <class Arithmetic>
+typename Arithmetic::Number TwistedLine::edge_function(const Arithmetic& with, const OutlineEdge& edge,
+                                                       const Motion<typename Arithmetic::Number>& m) {
+  using Number = typename Arithmetic::Number;
+  const Number px = with.subtract(m.ux, with.multiply(edge.from.x, m.s));
+  const Number py = with.subtract(m.uy, with.multiply(edge.from.y, m.s));
+  // The chord rounds, and counts as the exact edge's through both of its ends.
+  const Ball wx = Ball::rounded(edge.to.x - edge.from.x, 0), wy = Ball::rounded(edge.to.y - edge.from.y, 0);
+  const Number across = with.subtract(with.multiply(wy, px), with.multiply(wx, py));
+  if (!edge.is_arc()) return across;
+  const Number qx = with.subtract(px, with.multiply(wx, m.s)), qy = with.subtract(py, with.multiply(wy, m.s));
+  const Ball flatness{edge.flatness(), gamma(3) * std::fabs(edge.flatness())};
+  const Number round = with.add(with.multiply(px, qx), with.multiply(py, qy));
+  return with.add(with.multiply(edge.bulge, round), with.multiply(flatness, with.multiply(m.s, across)));
+}
+
+Enclosure TwistedLine::edge_over(const OutlineEdge& edge, const Interval& interval) const {
+  return edge_function(EnclosureArithmetic(interval.half_width()), edge, move_over(interval));
+}
+
+Ball TwistedLine::edge_at(const OutlineEdge& edge, double t) const {
+  return edge_function(BallArithmetic(), edge, move_within({t, t}));
+}
+
+void TwistedLine::cross_edges(const OutlineEdges& edges, double begin, double end, std::vector<EdgeCrossing>& out) {
+  const double turn = std::fabs(sweep_.quarter_turns * sweep_.per_height * ray_.direction.z * (end - begin));
+  search(edges, {begin, end}, turn, out);
+  // The face the ray starts on is crossed there even where rounding has put the edge aside.
+  if (on_edge_ < 0 || !(begin <= 0 && 0 <= end)) return;
+  const auto index = static_cast<std::uint32_t>(on_edge_);
+  const auto is_start = [index](const EdgeCrossing& c) { return c.given && c.edge == index; };
+  if (std::any_of(out.begin(), out.end(), is_start)) return;
+  const bool rising = edge_over(edges.edges()[index], {0, 0}).slope.middle > 0;
+  out.push_back({{0, 0, 0}, index, rising, true, true});
+}
+
+// By the distance from the axis alone.
+bool TwistedLine::may_meet_walls(const Interval& interval) const {
+  const Vec2 o{ray_.origin.x, ray_.origin.y}, d{ray_.direction.x, ray_.direction.y};
+  const double dd = dot(d, d);
+  const double nearest = dd > 0 ? std::clamp(-dot(o, d) / dd, interval.begin, interval.end) : interval.begin;
+  const double t = std::max(std::fabs(interval.begin), std::fabs(interval.end));
+  const double error =
+      length(ray_.origin_error) + t * length(ray_.direction_error) + gamma(8) * (length(o) + t * length(d));
+  // Where the foot is off by its rounding, the distance changes by less than that times the speed.
+  if (length(o + nearest * d) - 2 * error > sweep_.reach) return false;
+  return std::max(length(o + interval.begin * d), length(o + interval.end * d)) + error >= sweep_.clearance;
+}
+
+// Over `turn` quarter turns at most. Over an eighth of a turn the motion is still much like a straight one; less of it
+// is looked at together where no more than a few edges can be near.
+void TwistedLine::search(const OutlineEdges& edges, const Interval& interval, double turn,
+                         std::vector<EdgeCrossing>& out) {
+  constexpr double widest = 0.5, narrowest = 0.125;
+  if (!may_meet_walls(interval)) return;
+  if (turn <= widest) {
+    const Motion<Enclosure> m = move_over(interval);
+    const auto may_be_over = [&](const Ball& u, double lower, double upper) {
+      const double a = m.s.range.least(), b = m.s.range.greatest();
+      return u.greatest() >= std::min(lower * a, lower * b) && u.least() <= std::max(upper * a, upper * b);
+    };
+    const auto touches = [&](const Vec2& lower, const Vec2& upper) {
+      return may_be_over(m.ux.range, lower.x, upper.x) && may_be_over(m.uy.range, lower.y, upper.y);
+    };
+    if (turn <= narrowest) {
+      const EnclosureArithmetic with(interval.half_width());
+      edges.visit_edges(touches, [&](std::uint32_t index) {
+        looks_ = most_looks;
+        const OutlineEdge& edge = edges.edges()[index];
+        cross_edge(index, edge, interval, edge_function(with, edge, m), 0, out);
+        return true;
+      });
+      return;
+    }
+    if (edges.visit_edges(touches, [](std::uint32_t) { return false; })) return;
+  }
+  // The start of a ray lies within one of the parts, not between two.
+  double middle = interval.middle();
+  if (middle == 0 && on_edge_ >= 0) middle = 0.5 * interval.begin;
+  search(edges, {interval.begin, middle}, 0.5 * turn, out);
+  search(edges, {middle, interval.end}, 0.5 * turn, out);
+}
+
+void TwistedLine::cross_edge(std::uint32_t index, const OutlineEdge& edge, const Interval& interval, const Enclosure& f,
+                             int depth, std::vector<EdgeCrossing>& out) {
+  if (on_edge_ == static_cast<int>(index) && interval.contains(0)) {
+    cross_start(index, edge, interval, f, depth, out);
+    return;
+  }
+  if (f.range.has_sign()) return;
+  if (f.slope.has_sign()) {
+    narrow_down(index, edge, interval, f, out);
+    return;
+  }
+  const double middle = interval.middle();
+  if (is_in_doubt(edge, interval, f) || depth >= deepest || --looks_ <= 0) {
+    report(index, edge, middle, interval, f.slope.middle > 0, false, out);
+    return;
+  }
+  for (const Interval& half : {Interval{interval.begin, middle}, Interval{middle, interval.end}}) {
+    cross_edge(index, edge, half, edge_over(edge, half), depth + 1, out);
+  }
+}
+
+// Whether an interval is no wider than the errors, or the line lies in the edge's wall there as far as they can tell.
+bool TwistedLine::is_in_doubt(const OutlineEdge& edge, const Interval& interval, const Enclosure& f) const {
+  const double middle = interval.middle();
+  if (!(interval.begin < middle && middle < interval.end)) return true;
+  if (f.range.radius - f.middle.radius <= 2 * f.middle.radius) return true;
+  if (f.middle.has_sign()) return false;
+  // A function this smooth does not leave its errors between so many places in a row.
+  constexpr int places = 8;
+  for (int i = 0; i <= places; ++i) {
+    const double t = interval.begin + (interval.end - interval.begin) * i / places;
+    if (edge_at(edge, t).has_sign()) return false;
+  }
+  return true;
+}
+
+// One crossing is known to be at exactly 0.
+void TwistedLine::cross_start(std::uint32_t index, const OutlineEdge& edge, const Interval& interval,
+                              const Enclosure& f, int depth, std::vector<EdgeCrossing>& out) {
+  const double quarter = 0.25 * (interval.end - interval.begin);
+  if (f.slope.has_sign() || is_in_doubt(edge, interval, f) || depth >= deepest || --looks_ <= 0) {
+    const bool rising = (f.slope.has_sign() ? f.slope : edge_over(edge, {0, 0}).slope).middle > 0;
+    out.push_back({{0, 0, 0}, index, rising, true, true});
+    // Nothing is known of a second one so near.
+    if (!f.slope.has_sign()) report(index, edge, interval.middle(), interval, !rising, false, out);
+    return;
+  }
+  const Interval near{std::max(interval.begin, -quarter), std::min(interval.end, quarter)};
+  for (const Interval& part : {Interval{interval.begin, near.begin}, near, Interval{near.end, interval.end}}) {
+    if (part.begin < part.end) cross_edge(index, edge, part, edge_over(edge, part), depth + 1, out);
+  }
+}
+
+// The function is monotonic over the interval.
+void TwistedLine::narrow_down(std::uint32_t index, const OutlineEdge& edge, Interval interval, Enclosure f,
+                              std::vector<EdgeCrossing>& out) const {
+  const Ball at_begin = edge_at(edge, interval.begin), at_end = edge_at(edge, interval.end);
+  const bool sure = at_begin.has_sign() && at_end.has_sign();
+  if (sure && at_begin.is_positive() == at_end.is_positive()) return;
+  const bool rising = f.slope.middle > 0;
+  double place = interval.middle();
+  for (int step = 0; step < deepest; ++step) {
+    // Newton's operator: middle - f(middle) / slope, for every slope there may be.
+    const double middle = interval.middle(), slope = std::fabs(f.slope.middle);
+    const double least = slope - f.slope.radius;
+    if (!(least > 0)) break;
+    const double distance = rising ? -f.middle.middle : f.middle.middle;
+    const double low = distance - f.middle.radius, high = distance + f.middle.radius;
+    const double steep = 1 / (slope + f.slope.radius), shallow = 1 / least;
+    Interval next{low * (low >= 0 ? steep : shallow), high * (high >= 0 ? shallow : steep)};
+    const double rounding = gamma(6) * (std::fabs(next.begin) + std::fabs(next.end)) + gamma(2) * std::fabs(middle);
+    next = {std::max(interval.begin, middle + next.begin - rounding),
+            std::min(interval.end, middle + next.end + rounding)};
+    // A line that misses within its errors leaves no common part.
+    if (!(next.begin <= next.end)) return;
+    place = std::clamp(middle + distance / slope, next.begin, next.end);
+    const bool is_settled = !(next.half_width() < 0.5 * interval.half_width());
+    interval = next;
+    if (is_settled) break;
+    f = edge_over(edge, interval);
+  }
+  report(index, edge, place, interval, rising, sure, out);
+}
+
+// Where the whole line or circle of an edge is crossed; of the edge itself that may be beside its ends.
+void TwistedLine::report(std::uint32_t index, const OutlineEdge& edge, double t, const Interval& interval, bool rising,
+                         bool sure, std::vector<EdgeCrossing>& out) const {
+  const Motion<Ball> m = move_within(interval);
+  const Ball px = m.ux - edge.from.x * m.s, py = m.uy - edge.from.y * m.s;
+  const Vec2 w = edge.chord();
+  // What the rounding of the chord moves.
+  const double slack = gamma(4) * (std::fabs(w.x) + std::fabs(w.y)) *
+                       (std::fabs(px.middle) + px.radius + std::fabs(py.middle) + py.radius);
+  const auto demand = [&](const Ball& value) {
+    if (value.greatest() < -slack) return false;
+    sure = sure && value.least() > slack;
+    return true;
+  };
+  if (edge.is_arc()) {
+    const Ball side = w.y * px - w.x * py;
+    if (!demand(edge.bulge > 0 ? side : -1 * side)) return;
+  } else {
+    const Ball along = w.x * px + w.y * py;
+    if (!demand(along) || !demand(dot(w, w) * m.s - along)) return;
+  }
+  out.push_back({{t, interval.begin, interval.end}, index, rising, sure, false});
+}
+
+}  // namespace tenon

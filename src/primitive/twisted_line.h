@@ -1,0 +1,79 @@
+#pragma once
+
+#include <vector>
+
+#include "math/enclosure.h"
+#include "primitive/edge_crossings.h"
+#include "primitive/local_ray.h"
+#include "primitive/outline_edges.h"
+
+namespace tenon {
+
+/// How a twisted prism moves its outline, as a share of its height goes from 0 to 1.
+struct TwistedSweep {
+  double low = 0;            ///< z at the share 0
+  double per_height = 1;     ///< 1 / height
+  double quarter_turns = 0;  ///< in all
+  double growth_x = 0, growth_y = 0;
+  double clearance = 0, reach = 0;  ///< walls lie at these distances from the axis, or between them
+};
+
+/// A ray as it runs through the plane of the outline. At t it is at U(t) / S(t), with S the product of the two scales
+/// and U = R(turn) (x scale_y, y scale_x), so that nothing is divided, and a tip is no exception.
+///
+/// Where it crosses an edge is isolated by halving: of an interval over which the edge's function cannot vanish there
+/// is nothing to report, of one over which it is monotonic at most one crossing, which Newton's operator narrows down
+/// (Moore, "Interval Analysis", 1966). An interval of which neither is certain and which is no wider than the errors
+/// is reported as a crossing in doubt.
+class TwistedLine {
+ public:
+  TwistedLine(const TwistedSweep& sweep, const LocalRay& ray, int on_edge)
+      : sweep_(sweep), ray_(ray), on_edge_(on_edge) {}
+
+  /// Finds the crossings with all edges between two t.
+  void cross_edges(const OutlineEdges& edges, double begin, double end, std::vector<EdgeCrossing>& out);
+
+ private:
+  struct Interval {
+    double begin, end;
+
+    double middle() const { return 0.5 * begin + 0.5 * end; }
+    double half_width() const { return 0.5 * (end - begin); }
+    bool contains(double t) const { return begin <= t && t <= end; }
+  };
+  template <class Number>
+  struct Motion {
+    Number ux, uy, s;
+  };
+
+  Ball coordinate(int axis, double t, double half_width) const;
+  template <class Arithmetic>
+  Motion<typename Arithmetic::Number> move(const Arithmetic& with, const typename Arithmetic::Number (&point)[3]) const;
+  Motion<Enclosure> move_over(const Interval& interval) const;
+  Motion<Ball> move_within(const Interval& interval) const;
+
+  template <class Arithmetic>
+  static typename Arithmetic::Number edge_function(const Arithmetic& with, const OutlineEdge& edge,
+                                                   const Motion<typename Arithmetic::Number>& motion);
+  Enclosure edge_over(const OutlineEdge& edge, const Interval& interval) const;
+  Ball edge_at(const OutlineEdge& edge, double t) const;
+
+  bool may_meet_walls(const Interval& interval) const;
+  void search(const OutlineEdges& edges, const Interval& interval, double turn, std::vector<EdgeCrossing>& out);
+  bool is_in_doubt(const OutlineEdge& edge, const Interval& interval, const Enclosure& f) const;
+  void cross_edge(std::uint32_t index, const OutlineEdge& edge, const Interval& interval, const Enclosure& f, int depth,
+                  std::vector<EdgeCrossing>& out);
+  void cross_start(std::uint32_t index, const OutlineEdge& edge, const Interval& interval, const Enclosure& f,
+                   int depth, std::vector<EdgeCrossing>& out);
+  void narrow_down(std::uint32_t index, const OutlineEdge& edge, Interval interval, Enclosure f,
+                   std::vector<EdgeCrossing>& out) const;
+  void report(std::uint32_t index, const OutlineEdge& edge, double t, const Interval& interval, bool rising, bool sure,
+              std::vector<EdgeCrossing>& out) const;
+
+  TwistedSweep sweep_;
+  LocalRay ray_;
+  int on_edge_;
+  int looks_ = 0;
+};
+
+}  // namespace tenon

@@ -1,0 +1,191 @@
+#include "primitive/twisted_prism.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "primitive/box_tests.h"
+#include "primitive/check.h"
+#include "primitive/twisted_line.h"
+
+namespace tenon {
+
+namespace {
+
+// A thousand turns: beyond, a height of one in a million is a turn.
+constexpr double most_degrees = 360e3;
+
+}  // namespace
+
+std::string TwistedPrism::check() const {
+  if (std::string problem = check_outline(name, outline); !problem.empty()) return problem;
+  if (!(std::fabs(twist) <= most_degrees)) {
+    return std::string(name) + " with twist = " + shortest(twist) + " turns too often; twists end at 360000 degrees";
+  }
+  return check_lengths(name, {{"h", h}, {"scale_x", scale_x, true}, {"scale_y", scale_y, true}});
+}
+
+void TwistedPrism::prepare() {
+  if (!check().empty()) return;
+  edges_ = OutlineEdges(outline);
+  reach_ = length(edges_.reach()) * largest_scale() * (1 + gamma(8));
+  double nearest = Box3::inf;
+  for (const OutlineEdge& edge : edges_.edges()) {
+    nearest = std::min(nearest, length(max(Vec2{}, max(edge.lower, Vec2{} - edge.upper))));
+  }
+  clearance_ = nearest * least_scale() * (1 - gamma(8));
+}
+
+void TwistedPrism::spans(const LocalRay& ray, Spans& out) const {
+  Chord slab;
+  if (!clip_slab(ray, 2, low(), high(), bottom, top, slab)) return;
+  // The part beside the axis, as far as any wall reaches.
+  constexpr std::uint32_t no_face = 0x7fffffff;
+  Chord over;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!clip_slab(ray, axis, -reach_, reach_, no_face, no_face, over)) return;
+  }
+  SearchedPart part;
+  part.begin = std::max(over.enter.lo, slab.enter.lo);
+  part.end = std::min(over.leave.hi, slab.leave.hi);
+  part.outside_before = over.enter.lo >= slab.enter.lo;
+  part.outside_after = over.leave.hi <= slab.leave.hi;
+  if (!(part.begin <= part.end) || !std::isfinite(part.begin) || !std::isfinite(part.end)) return;
+  const int on_edge = ray.on_face < static_cast<int>(walls) ? -1 : (ray.on_face - static_cast<int>(walls)) / 2;
+
+  TwistedLine line({low(), 1 / h, twist / 90, scale_x - 1, scale_y - 1, clearance_, reach_}, ray, on_edge);
+  thread_local std::vector<EdgeCrossing> crossings;
+  thread_local std::vector<BoundaryCrossing> boundary;
+  crossings.clear();
+  line.cross_edges(edges_, part.begin, part.end, crossings);
+  const auto is_inside = [&](double t) {
+    Vec2 place;
+    return find_place(ray.origin + t * ray.direction, place) && edges_.contains(place);
+  };
+  const bool inside = find_boundary_crossings(crossings, part, is_inside, boundary);
+  emit_between_caps(slab, boundary, inside, walls, out);
+}
+
+double TwistedPrism::support(const Vec3& n) const {
+  // At each of many heights, and between them no more than the motion allows: a point moves across by the turn and by
+  // the change of scale.
+  const double turns = std::fabs(twist) / 360;
+  const int steps = 256 * static_cast<int>(1 + std::min(turns, 64.0));
+  const double across = std::sqrt(n.x * n.x + n.y * n.y);
+  const double speed =
+      reach_ * 4 * half_pi * turns + length(edges_.reach()) * std::max(std::fabs(scale_x - 1), std::fabs(scale_y - 1));
+  const double slack = across * speed * 0.5 / steps * (1 + gamma(8));
+  double best = -Box3::inf;
+  for (int i = 0; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    const auto [sine, cosine] = quarter_turn_sine_cosine(twist / 90 * share);
+    const double a = n.x * (1 + (scale_x - 1) * share), b = n.y * (1 + (scale_y - 1) * share);
+    const double flat = edges_.support({cosine * a - sine * b, sine * a + cosine * b});
+    // The end of the step that is farther along n.
+    const double end = std::clamp(share + std::copysign(0.5 / steps, n.z), 0.0, 1.0);
+    best = std::max(best, flat + n.z * (low() + end * h));
+  }
+  return best + slack + gamma(32) * (across * reach_ + std::fabs(n.z) * (h + std::fabs(low())));
+}
+
+Region TwistedPrism::classify(const LocalBox& box) const {
+  // A circle around the place of the box decides; parts of a box have smaller ones.
+  constexpr int halvings = 24;
+  BoxSearch search;
+  return classify_parts(box.center, box.half_edges, box.error, halvings, search);
+}
+
+Region TwistedPrism::classify_parts(const Vec3& middle, const std::array<Vec3, 3>& half_edges, const Vec3& error,
+                                    int halvings, BoxSearch& search) const {
+  const Vec3 size = abs(half_edges[0]) + abs(half_edges[1]) + abs(half_edges[2]);
+  const Vec3 reach = size + error + gamma(8) * (abs(middle) + size);
+  const Region whole = classify(Box3{middle - reach, middle + reach});
+  if (whole != Region::straddles || halvings == 0 || --search.parts_left <= 0) return whole;
+  (contains(middle) ? search.is_inside_somewhere : search.is_outside_somewhere) = true;
+  if (search.is_inside_somewhere && search.is_outside_somewhere) return whole;
+  // Across the edge that moves the place in the outline farthest: by itself, or by the turn and the scales on its way
+  // up.
+  const double rise = reach_ / h * (half_pi * std::fabs(twist / 90) + std::fabs(scale_x - 1) + std::fabs(scale_y - 1));
+  const auto effect = [rise](const Vec3& edge) { return length(Vec2{edge.x, edge.y}) + std::fabs(edge.z) * rise; };
+  std::array<Vec3, 3> halves = half_edges;
+  Vec3& longest = *std::max_element(halves.begin(), halves.end(),
+                                    [&](const Vec3& a, const Vec3& b) { return effect(a) < effect(b); });
+  longest = 0.5 * longest;
+  const Region first = classify_parts(middle - longest, halves, error, halvings - 1, search);
+  if (first == Region::straddles) return first;
+  const Region second = classify_parts(middle + longest, halves, error, halvings - 1, search);
+  return second == first ? first : Region::straddles;
+}
+
+bool TwistedPrism::find_place(const Vec3& p, Vec2& place) const {
+  const double share = (p.z - low()) / h;
+  const double sx = 1 + (scale_x - 1) * share, sy = 1 + (scale_y - 1) * share;
+  if (!(sx > 0 && sy > 0)) return false;
+  const auto [sine, cosine] = quarter_turn_sine_cosine(twist / 90 * share);
+  const double a = p.x / sx, b = p.y / sy;
+  place = {cosine * a - sine * b, sine * a + cosine * b};
+  return true;
+}
+
+bool TwistedPrism::contains(const Vec3& p) const {
+  Vec2 place;
+  return p.z >= low() && p.z <= high() && find_place(p, place) && edges_.contains(place);
+}
+
+Region TwistedPrism::classify(const Box3& box) const {
+  if (box.upper.z < low() || box.lower.z > high()) return Region::outside;
+  const auto nearest = [](double lower, double upper) { return std::max({0.0, lower, -upper}); };
+  const double x = nearest(box.lower.x, box.upper.x), y = nearest(box.lower.y, box.upper.y);
+  if (std::sqrt(x * x + y * y) > reach_ * (1 + gamma(8))) return Region::outside;
+  const bool between_caps = box.lower.z >= low() && box.upper.z <= high();
+  const Vec3 farthest = max(abs(box.lower), abs(box.upper));
+  if (length(Vec2{farthest.x, farthest.y}) * (1 + gamma(8)) < clearance_) {
+    if (!edges_.contains({})) return Region::outside;
+    return between_caps ? Region::inside : Region::straddles;
+  }
+  // What matters is what lies between the caps. Shares of the height, and where they take the box.
+  const double from = std::clamp((box.lower.z - low()) / h, 0.0, 1.0);
+  const double to = std::clamp((box.upper.z - low()) / h, 0.0, 1.0);
+  const double share = 0.5 * (from + to), half = 0.5 * (to - from) + gamma(8);
+  const double sx = 1 + (scale_x - 1) * share, sy = 1 + (scale_y - 1) * share;
+  const double sx_least = sx - half * std::fabs(scale_x - 1) - gamma(8) * (1 + scale_x);
+  const double sy_least = sy - half * std::fabs(scale_y - 1) - gamma(8) * (1 + scale_y);
+  const double size_most = std::max(2 * sx - sx_least, 2 * sy - sy_least);
+  if (std::sqrt(x * x + y * y) > length(edges_.reach()) * size_most * (1 + gamma(8))) return Region::outside;
+  if (!(sx_least > 0 && sy_least > 0)) return Region::straddles;
+  const Vec3 middle = box.center(), size = 0.5 * box.size();
+  const auto divide = [half](double value, double radius, double s, double s_least, double growth) {
+    // |(value ± radius) / (s ± ds) - value / s|
+    return (radius + std::fabs(value / s) * half * std::fabs(growth)) / s_least + gamma(8) * std::fabs(value / s);
+  };
+  const double a = middle.x / sx, b = middle.y / sy;
+  const double a_radius = divide(middle.x, size.x, sx, sx_least, scale_x - 1);
+  const double b_radius = divide(middle.y, size.y, sy, sy_least, scale_y - 1);
+  const double turn = half_pi * std::fabs(twist / 90) * half + sine_cosine_error + gamma(8) * std::fabs(twist);
+  const double far = length(Vec2{std::fabs(a) + a_radius, std::fabs(b) + b_radius});
+  const double radius = (std::sqrt(a_radius * a_radius + b_radius * b_radius) + far * turn) * (1 + gamma(16));
+  const auto [sine, cosine] = quarter_turn_sine_cosine(twist / 90 * share);
+  const Vec2 place{cosine * a - sine * b, sine * a + cosine * b};
+  if (!std::isfinite(radius) || edges_.is_near_edge(place, radius)) return Region::straddles;
+  if (!edges_.contains(place)) return Region::outside;
+  return between_caps ? Region::inside : Region::straddles;
+}
+
+// The gradient of q (outline_edges.h) at R(turn) (x / sx, y / sy).
+Vec3 TwistedPrism::normal(const Vec3& point, std::uint32_t face) const {
+  if (face < walls) return {0, 0, face == top ? 1.0 : -1.0};
+  const OutlineEdge& edge = edges_.edges()[(face - walls) / 2];
+  const double share = std::clamp((point.z - low()) / h, 0.0, 1.0);
+  const double sx = 1 + (scale_x - 1) * share, sy = 1 + (scale_y - 1) * share;
+  const auto [sine, cosine] = quarter_turn_sine_cosine(twist / 90 * share);
+  const double a = point.x / sx, b = point.y / sy;
+  const Vec2 place{cosine * a - sine * b, sine * a + cosine * b};
+  const Vec2 n = edge.normal(place - edge.from);
+  const double na = cosine * n.x + sine * n.y, nb = cosine * n.y - sine * n.x;
+  const double turning = half_pi * (twist / 90) / h * cross(place, n);
+  const double shrinking = na * a * (scale_x - 1) / (sx * h) + nb * b * (scale_y - 1) / (sy * h);
+  const Vec3 outward{na / sx, nb / sy, turning - shrinking};
+  if (outward == Vec3{}) return {0, 0, 1};
+  return (face - walls) % 2 == 0 ? outward : -outward;
+}
+
+}  // namespace tenon
