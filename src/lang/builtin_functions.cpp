@@ -93,6 +93,7 @@ BuiltinFunctionTable builtin_functions(SymbolTable& symbols) {
   add_list_functions(table, symbols);
   add_string_functions(table, symbols);
   add_search_functions(table, symbols);
+  add_drawing_functions(table, symbols);
   return table;
 }
 

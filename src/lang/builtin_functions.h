@@ -8,12 +8,13 @@
 
 namespace tenon::lang {
 
-/// A call of a built-in function with its arguments evaluated; names of arguments mean nothing to it.
+/// A call of a built-in function with its arguments evaluated; names of arguments mean nothing to most.
 struct BuiltinCall {
   Environment& environment;
   std::string_view name;
   std::vector<Value> arguments;
   Place at;
+  std::vector<Symbol> names;  ///< of the arguments; none for those without
 
   /// Warns and gives undef.
   Value refuse(const std::string& why) const;
@@ -32,6 +33,7 @@ BuiltinFunctionTable builtin_functions(SymbolTable& symbols);
 void add_math_functions(BuiltinFunctionTable& table, SymbolTable& symbols);
 void add_list_functions(BuiltinFunctionTable& table, SymbolTable& symbols);
 void add_string_functions(BuiltinFunctionTable& table, SymbolTable& symbols);
+void add_drawing_functions(BuiltinFunctionTable& table, SymbolTable& symbols);
 void add_search_functions(BuiltinFunctionTable& table, SymbolTable& symbols);
 
 }  // namespace tenon::lang

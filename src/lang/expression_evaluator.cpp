@@ -140,9 +140,12 @@ Value ExpressionEvaluator::range(const RangeLiteral& literal, Place at, Scope& s
 Value ExpressionEvaluator::builtin_call(const Callee& callee, const Call& call, Place at, Scope& scope) {
   if (callee.is_undef) return test_undef(call, scope);
   const auto& name = std::get<Variable>(call.function->node);
-  BuiltinCall evaluated{environment_, environment_.text(name.name), {}, at};
+  BuiltinCall evaluated{environment_, environment_.text(name.name), {}, at, {}};
   evaluated.arguments.reserve(call.arguments.size());
-  for (const Argument& argument : call.arguments) evaluated.arguments.push_back(evaluate(*argument.value, scope));
+  for (const Argument& argument : call.arguments) {
+    evaluated.arguments.push_back(evaluate(*argument.value, scope));
+    evaluated.names.push_back(argument.name);
+  }
   return callee.builtin(evaluated);
 }
 

@@ -1,7 +1,8 @@
 #include <filesystem>
 
+#include "lang/drawing_file.h"
 #include "lang/failure.h"
-#include "lang/module_arguments.h"
+#include "lang/primitive_arguments.h"
 #include "lang/source_files.h"
 #include "mesh/load_mesh.h"
 
@@ -68,7 +69,12 @@ Solid mesh_of_file(ModuleCall& call, Place at, const NamedFile& file, const std:
 std::optional<Solid> import(ModuleCall& call) {
   constexpr std::string_view names[] = {"file", "convexity", "layer", "origin", "scale", "hull", "local"};
   const ModuleArguments arguments(call, names, UnknownArgument::warn);
-  const NamedFile file = require_file(call, arguments, "a mesh file");
+  if (const String* name = arguments[0].string(); name && is_drawing(name->text())) {
+    DrawingRequest request = drawing_request(call, arguments, 0, 2, 3);
+    request.scale = number_argument(call, arguments, 4, "scale").value_or(1);
+    return shape_of_drawing(call.evaluator, request);
+  }
+  const NamedFile file = require_file(call, arguments, "a mesh file or a drawing");
   const bool* given_hull = arguments[5].boolean();
   if (arguments.given(5) && !given_hull) fail(arguments.at(5), "'hull' must be true or false");
   const bool hull = given_hull && *given_hull;
@@ -92,7 +98,8 @@ std::optional<Solid> surface(ModuleCall& call) {
 }  // namespace
 
 void add_file_modules(BuiltinModuleTable& table, SymbolTable& symbols) {
-  for (const char* name : {"import", "import_stl", "import_off"}) table.emplace(symbols.intern(name), import);
+  for (const char* name : {"import", "import_dxf", "import_stl", "import_off"})
+    table.emplace(symbols.intern(name), import);
   table.emplace(symbols.intern("surface"), surface);
 }
 

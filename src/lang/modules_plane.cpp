@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lang/drawing_file.h"
 #include "lang/facets.h"
 #include "lang/flat_shapes.h"
 #include "lang/format.h"
@@ -129,17 +130,22 @@ Vec2 require_scale(const ModuleArguments& arguments, std::size_t index) {
   return scale;
 }
 
+// What is extruded: the children, or a drawing. Its layer and origin follow its file among the arguments.
+Solid extruded_shape(ModuleCall& call, const ModuleArguments& arguments, std::size_t file) {
+  if (!arguments.given(file)) return flat_children(call);
+  return shape_of_drawing(call.evaluator, drawing_request(call, arguments, file, file + 1, file + 2));
+}
+
 std::optional<Solid> linear_extrude(ModuleCall& call) {
   constexpr std::string_view names[] = {"height", "center",   "convexity", "twist", "slices",
                                         "scale",  "segments", "file",      "layer", "origin"};
   const ModuleArguments arguments(call, names, UnknownArgument::warn);
-  if (arguments.given(7)) fail(arguments.at(7), "linear_extrude() of a file is not supported yet");
   const double twist = number_argument(call, arguments, 3, "twist").value_or(0);
   const double* slices = arguments[4].number();
   const double height = number_argument(call, arguments, 0, "height").value_or(100);
   const Vec2 scale = require_scale(arguments, 5);
   const bool* center = arguments[1].boolean();
-  Solid shape = flat_children(call);
+  Solid shape = extruded_shape(call, arguments, 7);
   if (shape.is_nothing()) return shape;
   if (!(height > 0) || !std::isfinite(height)) {
     call.evaluator.environment().warn(call.at(),
@@ -164,9 +170,8 @@ std::optional<Solid> linear_extrude(ModuleCall& call) {
 std::optional<Solid> rotate_extrude(ModuleCall& call) {
   constexpr std::string_view names[] = {"angle", "convexity", "file", "layer", "origin", "scale"};
   const ModuleArguments arguments(call, names, UnknownArgument::warn);
-  if (arguments.given(2)) fail(arguments.at(2), "rotate_extrude() of a file is not supported yet");
   const double angle = number_argument(call, arguments, 0, "angle").value_or(360);
-  const Solid shape = flat_children(call);
+  const Solid shape = extruded_shape(call, arguments, 2);
   if (shape.is_nothing()) return shape;
   if (angle == 0 || !std::isfinite(angle)) {
     call.evaluator.environment().warn(call.at(),
@@ -186,7 +191,10 @@ void add_plane_modules(BuiltinModuleTable& table, SymbolTable& symbols) {
                                                            {"square", square},
                                                            {"polygon", polygon},
                                                            {"linear_extrude", linear_extrude},
-                                                           {"rotate_extrude", rotate_extrude}};
+                                                           {"rotate_extrude", rotate_extrude},
+                                                           // Names of before 2011.
+                                                           {"dxf_linear_extrude", linear_extrude},
+                                                           {"dxf_rotate_extrude", rotate_extrude}};
   for (const auto& [name, module] : modules) table.emplace(symbols.intern(name), module);
 }
 

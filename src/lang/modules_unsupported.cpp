@@ -12,8 +12,7 @@ std::optional<Solid> not_supported(ModuleCall& call) {
 }  // namespace
 
 void add_unsupported_modules(BuiltinModuleTable& table, SymbolTable& symbols) {
-  for (const char* name :
-       {"dxf_linear_extrude", "dxf_rotate_extrude", "import_dxf", "projection", "minkowski", "fill", "roof"}) {
+  for (const char* name : {"projection", "minkowski", "fill", "roof"}) {
     table.emplace(symbols.intern(name), not_supported);
   }
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "base/text_scanner.h"
 #include "mesh/png_heights.h"
-#include "mesh/text_scanner.h"
 
 namespace tenon {
 

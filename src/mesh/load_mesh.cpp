@@ -1,11 +1,6 @@
 #include "mesh/load_mesh.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 
 namespace tenon {
 
@@ -15,33 +10,6 @@ using Reader = Result<PolygonSoup> (*)(const MeshFile&);
 
 constexpr std::pair<const char*, Reader> readers[] = {
     {".stl", read_stl}, {".obj", read_obj}, {".off", read_off}, {".ply", read_ply}, {".3mf", read_3mf}};
-
-// Indices of corners are 32 bits wide, and a corner takes at least two bytes.
-constexpr std::uintmax_t largest_file = std::uintmax_t{1} << 32;
-
-Error at_file(const std::string& path, const std::string& message, ErrorKind kind = ErrorKind::input) {
-  return Error{kind, message, {path, 0, 0, {}}};
-}
-
-Result<MeshFile> read_bytes(const std::string& path) {
-  std::error_code problem;
-  if (!std::filesystem::is_regular_file(path, problem)) return at_file(path, "this is no file; name a mesh file");
-  const std::uintmax_t size = std::filesystem::file_size(path, problem);
-  if (problem) return at_file(path, "cannot read it: " + problem.message(), ErrorKind::machine);
-  if (size > largest_file) return at_file(path, "mesh files end at 4 GiB; split it");
-  MeshFile file{path, std::string(static_cast<std::size_t>(size), '\0')};
-  std::ifstream stream(path, std::ios::binary);
-  stream.read(file.bytes.data(), static_cast<std::streamsize>(size));
-  if (!stream) return at_file(path, std::string("cannot read it: ") + std::strerror(errno), ErrorKind::machine);
-  return file;
-}
-
-std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 // nullptr where none reads such files.
 Reader find_reader(const std::string& path) {
@@ -73,13 +41,13 @@ Result<BuiltMesh> parse_mesh(const MeshFile& file, bool hull) {
 Result<BuiltMesh> load_mesh(const std::string& path, bool hull) {
   // Told before a file that is none of ours is read.
   if (find_reader(path) == nullptr) return not_readable(path);
-  const Result<MeshFile> file = read_bytes(path);
+  const Result<MeshFile> file = read_input_file(path, "a mesh file");
   if (!file) return file.error();
   return parse_mesh(*file, hull);
 }
 
 Result<BuiltMesh> load_height_map(const std::string& path, const HeightMapOptions& options) {
-  const Result<MeshFile> file = read_bytes(path);
+  const Result<MeshFile> file = read_input_file(path, "a mesh file");
   if (!file) return file.error();
   return build_from(*file, read_height_map(*file, options), "the surface", false);
 }

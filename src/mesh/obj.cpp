@@ -1,5 +1,5 @@
 #include "mesh/polygon_soup.h"
-#include "mesh/text_scanner.h"
+#include "mesh/scan_point.h"
 
 namespace tenon {
 

@@ -3,9 +3,9 @@
 #include <bit>
 #include <cmath>
 
+#include "base/text_scanner.h"
 #include "mesh/byte_reader.h"
 #include "mesh/polygon_soup.h"
-#include "mesh/text_scanner.h"
 
 namespace tenon {
 

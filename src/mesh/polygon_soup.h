@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tenon/base/error.h"
+#include "base/input_file.h"
 #include "tenon/math/vec3.h"
 
 namespace tenon {
@@ -34,11 +34,7 @@ struct PolygonSoup {
   }
 };
 
-/// The contents of a mesh file.
-struct MeshFile {
-  std::string path;  ///< as messages show it
-  std::string bytes;
-};
+using MeshFile = InputFile;
 
 /// Each reads one format. Errors name the line and the column where there are lines, and the byte where there are none.
 Result<PolygonSoup> read_stl(const MeshFile& file);

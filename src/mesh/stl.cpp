@@ -3,7 +3,7 @@
 
 #include "mesh/byte_reader.h"
 #include "mesh/polygon_soup.h"
-#include "mesh/text_scanner.h"
+#include "mesh/scan_point.h"
 
 namespace tenon {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <pugixml.hpp>
 
+#include "base/text_scanner.h"
 #include "mesh/polygon_soup.h"
-#include "mesh/text_scanner.h"
 #include "tenon/math/affine3.h"
 
 namespace tenon {

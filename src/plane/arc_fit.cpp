@@ -1,13 +1,15 @@
 #include "plane/arc_fit.h"
 
+#include <algorithm>
+
 #include "primitive/arc.h"
 
 namespace tenon {
 
 namespace {
 
-// Halved more often, a piece is shorter than doubles tell.
-constexpr int deepest = 24;
+// Of arcs the error falls to an eighth with each halving; a curve that is not done by then is broken.
+constexpr int deepest = 12;
 // An arc that turns by more than a quarter is not told by one point in its middle.
 constexpr double most_bulge = 0.2;
 
@@ -47,7 +49,10 @@ void fit(const ParametricCurve& curve, double begin, const Vec2& a, double end, 
 
 void fit_arcs(const ParametricCurve& curve, double begin, double end, double tolerance,
               std::vector<OutlineCorner>& loop) {
-  fit(curve, begin, curve(begin), end, curve(end), tolerance, 0, loop);
+  const Vec2 a = curve(begin), b = curve(end);
+  // What rounding makes of points is no shape.
+  const double rounding = 0x1p-44 * std::max(length(a), length(b));
+  fit(curve, begin, a, end, b, std::max(tolerance, rounding), 0, loop);
 }
 
 }  // namespace tenon

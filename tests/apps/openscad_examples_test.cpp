@@ -16,11 +16,6 @@ const std::map<std::string, std::string> waiting{
     {"animation", "hull() of solids is not supported yet"},
     {"echo", "the scene holds no solid"},  // it only prints
     {"example006", "hull() of solids is not supported yet"},
-    {"example007", "not '.dxf'"},
-    {"example008", "not '.dxf'"},
-    {"example009", "not '.dxf'"},
-    {"example013", "not '.dxf'"},
-    {"example015", "not '.dxf'"},
     {"example021", "projection() is not supported yet"},
     {"example023", "there is no file 'MCAD/fonts.scad'"},  // a library that another package holds
     {"projection", "projection() is not supported yet"},
@@ -47,7 +42,7 @@ TEST_F(OpenScadExamples, EachRendersOrNamesWhatItWaitsFor) {
       ++rendered;
     }
   }
-  EXPECT_GE(rendered, 35);
+  EXPECT_GE(rendered, 40);
 }
 
 }  // namespace

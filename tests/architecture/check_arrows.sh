@@ -13,13 +13,14 @@ allowed() {
     primitive) echo "kdtree math base" ;;
     mesh) echo "primitive math base" ;;
     text) echo "plane primitive math base" ;;
+    drawing) echo "plane primitive math base" ;;
     plane) echo "primitive math base" ;;
     csg) echo "primitive math base" ;;
     accel) echo "csg primitive kdtree math base" ;;
     scene) echo "accel csg primitive math base" ;;
     film) echo "image math base" ;;
     render) echo "film image scene accel csg primitive math base" ;;
-    lang) echo "scene csg mesh text plane primitive math base" ;;
+    lang) echo "scene csg mesh drawing text plane primitive math base" ;;
     image) echo "math base" ;;
     exchange) echo "render film image scene accel csg primitive math base" ;;
     *) echo "?" ;;
@@ -27,7 +28,7 @@ allowed() {
 }
 
 failed=0
-for folder in base math kdtree primitive mesh plane text csg accel scene image film render lang exchange; do
+for folder in base math kdtree primitive mesh plane text drawing csg accel scene image film render lang exchange; do
   for file in $(find "src/$folder" "include/tenon/$folder" \( -name '*.h' -o -name '*.cpp' \) 2>/dev/null); do
     for used in $(sed -n 's|^#include "\(tenon/\)\{0,1\}\([a-z]*\)/.*|\2|p' "$file" | sort -u); do
       [ "$used" = "$folder" ] && continue
@@ -43,7 +44,7 @@ for folder in base math kdtree primitive mesh plane text csg accel scene image f
   done
 done
 for file in $(find apps -name '*.h' -o -name '*.cpp'); do
-  if grep -nE '^#include "(base|math|kdtree|primitive|mesh|plane|text|csg|accel|scene|film|render|lang|image|exchange)/' "$file"; then
+  if grep -nE '^#include "(base|math|kdtree|primitive|mesh|plane|text|drawing|csg|accel|scene|film|render|lang|image|exchange)/' "$file"; then
     echo "$file: error: programs include only from include/tenon/"
     failed=1
   fi

@@ -40,6 +40,17 @@ class TextScanner {
     while (position_ < line_end_ && !is_space(text_[position_])) ++position_;
     return text_.substr(word_, position_ - word_);
   }
+  /// What is left of the line, without spaces around it.
+  std::string_view rest() {
+    while (position_ < line_end_ && is_space(text_[position_])) ++position_;
+    word_ = position_;
+    position_ = line_end_;
+    std::size_t end = line_end_;
+    while (end > word_ && is_space(text_[end - 1])) --end;
+    return text_.substr(word_, end - word_);
+  }
+  int line() const { return line_; }
+
   /// The next word, on this line or a later one; empty at the end of the text.
   std::string_view word_across_lines() {
     for (;;) {
@@ -108,17 +119,6 @@ inline std::optional<long long> to_integer(std::string_view word) {
   const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (problem != std::errc() || end != word.data() + word.size()) return std::nullopt;
   return value;
-}
-
-/// Three numbers from the line; nothing when one is missing or not finite. The scanner stands at the bad one then.
-inline std::optional<Vec3> to_vec3(TextScanner& scanner) {
-  Vec3 v;
-  for (int i = 0; i < 3; ++i) {
-    const auto number = to_number(scanner.word());
-    if (!number) return std::nullopt;
-    v[i] = *number;
-  }
-  return v;
 }
 
 }  // namespace tenon
