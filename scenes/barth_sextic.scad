@@ -3,6 +3,10 @@
 include <polynomials.scad>
 include <studio.scad>
 
+// How roots along a ray are isolated and refined; see README.md.
+isolation = "interval";
+refinement = "newton";
+
 golden = (1 + sqrt(5)) / 2;
 function difference_of_squares(p, q) = sum([scaled(golden * golden, square(p)), scaled(-1, square(q))]);
 planes = times(difference_of_squares(X, Y), times(difference_of_squares(Y, Z), difference_of_squares(Z, X)));
@@ -10,7 +14,7 @@ ball = square(sum([R2, constant(-1)]));
 
 material("amber", model = "phong", kd = 0.78, ks = 0.22, shininess = 60, color = [0.90, 0.56, 0.14])
   rotate([0, 0, 8]) intersection() {
-    algebraic(sum([scaled(-4, planes), scaled(1 + 2 * golden, ball)]), box = cube_of(2.2));
+    algebraic(sum([scaled(-4, planes), scaled(1 + 2 * golden, ball)]), cube_of(2.2), isolation, refinement);
     sphere(2.1);
   }
 

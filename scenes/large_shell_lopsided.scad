@@ -13,12 +13,12 @@ module segment() {
   }
 }
 
-module shell(segments) {
+module lopsided_large_shell(segments) {
   segment();
-  if (segments > 1) scale(0.979) rotate([0, 0, 12]) shell(segments - 1);
+  if (segments > 1) scale(0.979) rotate([0, 0, 12]) lopsided_large_shell(segments - 1);
 }
 
-clay([0.55, 0.70, 0.78]) shell(65);
+clay([0.55, 0.70, 0.78]) lopsided_large_shell(65);
 
 ground(-1.05);
 studio_lights();

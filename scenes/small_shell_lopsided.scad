@@ -13,12 +13,12 @@ module segment() {
   }
 }
 
-module shell(segments) {
+module lopsided_small_shell(segments) {
   segment();
-  if (segments > 1) scale(0.93) rotate([0, 0, 22.5]) shell(segments - 1);
+  if (segments > 1) scale(0.93) rotate([0, 0, 22.5]) lopsided_small_shell(segments - 1);
 }
 
-clay([0.93, 0.72, 0.55]) shell(16);
+clay([0.93, 0.72, 0.55]) lopsided_small_shell(16);
 
 ground(-1.05);
 studio_lights();

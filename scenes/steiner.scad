@@ -2,11 +2,15 @@
 include <polynomials.scad>
 include <studio.scad>
 
+// How roots along a ray are isolated and refined; see README.md.
+isolation = "interval";
+refinement = "newton";
+
 roman = sum([times(square(X), square(Y)), times(square(Y), square(Z)), times(square(Z), square(X)),
              scaled(-1, times(X, times(Y, Z)))]);
 
 material("celadon", model = "phong", kd = 0.8, ks = 0.2, shininess = 60, color = [0.30, 0.62, 0.56])
-  rotate([0, 0, 20]) scale(2.4) algebraic(roman, box = cube_of(0.55));
+  rotate([0, 0, 20]) scale(2.4) algebraic(roman, cube_of(0.55), isolation, refinement);
 
 ground(-0.92);
 studio_lights();

@@ -163,7 +163,7 @@ Status LabCommand::run() const {
     const Paper& paper = paper_of(e, *papers);
     LabTable table;
     table.id = e.id;
-    lab.expect(e.weight, 1);
+    lab.expect(e.weight);
     if (Status status = e.run(lab, paper, table); !status) return status;
     const Json json = lab_json(table, paper, origin, lab.effort().name, seconds_since(begun));
     all.push_back(json);

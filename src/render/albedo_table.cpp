@@ -64,6 +64,11 @@ double AlbedoTable::operator()(double cos) const {
   return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
 }
 
+AlbedoTables& AlbedoTables::shared() {
+  static AlbedoTables tables;
+  return tables;
+}
+
 const AlbedoTable& AlbedoTables::get(ScatteredPart part, double alpha, double eta) {
   const Key key{part, alpha, eta};
   {

@@ -35,6 +35,9 @@ class AlbedoTable {
 /// Tables, each made when it is first asked for. Which they are does not depend on who asks first.
 class AlbedoTables {
  public:
+  /// Those of all pictures that this process takes: a table takes as long as some ten thousand rays.
+  static AlbedoTables& shared();
+
   const AlbedoTable& get(ScatteredPart part, double alpha, double eta = 1);
 
  private:

@@ -81,7 +81,7 @@ LitScene::Prepared LitScene::prepare(const Material& material) {
           material.texture,
           material.emission,
           reflectance_of(material),
-          Surface(material, tables_)};
+          Surface(material, AlbedoTables::shared())};
 }
 
 void LitScene::prepare_lights(const Scene& scene) {

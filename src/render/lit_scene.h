@@ -108,7 +108,6 @@ class LitScene {
   Prepared prepare(const Material& material);
   void prepare_lights(const Scene& scene);
 
-  AlbedoTables tables_;
   std::vector<Prepared> materials_;  // the default one, then those of the scene
   std::vector<Medium> media_;
   bool has_unbent_ = false, has_transmission_ = false;

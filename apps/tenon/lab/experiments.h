@@ -25,5 +25,26 @@ Status run_rr612_gain(Lab& lab, const Paper& paper, LabTable& table);
 Status run_rr612_statistics(Lab& lab, const Paper& paper, LabTable& table);
 Status run_rr612_growth(Lab& lab, const Paper& paper, LabTable& table);
 Status run_rr612_memory(Lab& lab, const Paper& paper, LabTable& table);
+Status run_rope_trees_diffuse(Lab& lab, const Paper& paper, LabTable& table);
+Status run_rope_trees_specular(Lab& lab, const Paper& paper, LabTable& table);
+Status run_course_hierarchies(Lab& lab, const Paper& paper, LabTable& table);
+Status run_course_volumes(Lab& lab, const Paper& paper, LabTable& table);
+Status run_course_polygons(Lab& lab, const Paper& paper, LabTable& table);
+Status run_course_roots(Lab& lab, const Paper& paper, LabTable& table);
+Status run_course_patches(Lab& lab, const Paper& paper, LabTable& table);
+Status run_course_steps(Lab& lab, const Paper& paper, LabTable& table);
+Status run_course_grids(Lab& lab, const Paper& paper, LabTable& table);
+Status run_okd_grooved_sphere(Lab& lab, const Paper& paper, LabTable& table);
+Status run_okd_checkered_cube(Lab& lab, const Paper& paper, LabTable& table);
+Status run_okd_large_shell(Lab& lab, const Paper& paper, LabTable& table);
+Status run_okd_small_shell(Lab& lab, const Paper& paper, LabTable& table);
+Status run_okd_turns(Lab& lab, const Paper& paper, LabTable& table);
+Status run_okd_finer(Lab& lab, const Paper& paper, LabTable& table);
+Status run_scaling_size(Lab& lab, const Paper& paper, LabTable& table);
+Status run_scaling_stadium(Lab& lab, const Paper& paper, LabTable& table);
+Status run_scaling_overlap(Lab& lab, const Paper& paper, LabTable& table);
+Status run_scaling_balance(Lab& lab, const Paper& paper, LabTable& table);
+Status run_scaling_depth(Lab& lab, const Paper& paper, LabTable& table);
+Status run_work_heat_maps(Lab& lab, const Paper& paper, LabTable& table);
 
 }  // namespace tenon

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "tenon/lang/load.h"
 
@@ -38,16 +39,27 @@ std::string Lab::made_file(const std::string& name) const {
   return std::filesystem::exists(path) ? path : "";
 }
 
+std::string Lab::triangles_of(const std::string& path) const {
+  std::ifstream file(path);
+  std::string word, vertices, triangles;
+  file >> word >> vertices >> triangles;
+  return triangles;
+}
+
 void Lab::begin(double weight_of_all) {
   console_.progress().begin("measuring");
   console_.progress().counters().total = static_cast<std::uint64_t>(weight_of_all / thousandth);
 }
 
-void Lab::expect(double weight, int steps) {
+void Lab::expect(double weight) {
   begun_ += weight_;
   done_ = 0;
   weight_ = weight;
-  step_ = weight / std::max(1, steps);
+  step_ = 0;
+}
+
+void Lab::expect_steps(int steps) {
+  step_ = (weight_ - done_) / std::max(1, steps);
 }
 
 void Lab::step() {

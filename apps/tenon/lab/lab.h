@@ -45,11 +45,15 @@ class Lab {
                         const std::vector<std::pair<std::string, std::string>>& definitions = {}) const;
   /// A file that ./dev lab makes beforehand; empty where it is not there.
   std::string made_file(const std::string& name) const;
+  /// The number of triangles in an OFF file.
+  std::string triangles_of(const std::string& path) const;
 
   /// The experiments' share of the whole work, for the time left.
   void begin(double weight_of_all);
-  /// The next pieces of work have this share, in so many equal steps.
-  void expect(double weight, int steps);
+  /// The next experiment has this share.
+  void expect(double weight);
+  /// What is left of it is so many equal steps.
+  void expect_steps(int steps);
   /// One of them is done.
   void step();
 

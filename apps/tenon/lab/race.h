@@ -18,6 +18,7 @@ struct Contender {
   std::string name;
   const LabScene* scene = nullptr;
   std::string accelerator;
+  bool is_approximate = false;  ///< its picture may differ from the others'
 };
 
 /// What came of it.
@@ -25,8 +26,10 @@ struct RaceResult {
   std::string name;
   Timing build, render;  ///< CPU seconds
   AcceleratorFigures figures;
-  TraversalStatistics statistics;    ///< of one picture
-  std::size_t different_pixels = 0;  ///< from the first contender's picture
+  TraversalStatistics statistics;  ///< of one picture
+  std::size_t primitives = 0;
+  Film picture;
+  std::size_t different_pixels = 0;  ///< from the first contender's picture; 0 where it may differ
 
   double rays() const { return static_cast<double>(statistics.total().rays); }
   LabFigure build_figure() const { return {build.median(), build.spread(), ""}; }
@@ -43,6 +46,12 @@ Result<std::vector<RaceResult>> race(Lab& lab, const std::vector<Contender>& con
 
 /// How many steps race() makes.
 int race_steps(const Lab& lab, std::size_t contenders, int rounds = 0);
+
+/// Says in the table which contenders took another picture than the first. None should.
+void note_differences(const std::vector<RaceResult>& results, LabTable& table);
+
+/// Pixels in which a component of the light is off by more than `tolerance`, as a share of all.
+double share_of_different_pixels(const Film& a, const Film& b, double tolerance);
 
 /// The median over the rounds of how many times faster one is, and how far that may be off.
 Measured speedup(const RaceResult& slow, const RaceResult& fast);

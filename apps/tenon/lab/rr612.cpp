@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "lab/experiments.h"
 #include "lab/race.h"
+#include "lab/ratios.h"
 
 namespace tenon {
 
@@ -39,22 +41,6 @@ Result<std::vector<RaceResult>> race_scene(Lab& lab, const LabScene& scene, int 
   return race(lab, contenders, course_options(depth));
 }
 
-Measured smallest(const std::vector<Measured>& all) {
-  return *std::min_element(all.begin(), all.end(), [](auto& a, auto& b) { return a.value < b.value; });
-}
-Measured largest(const std::vector<Measured>& all) {
-  return *std::max_element(all.begin(), all.end(), [](auto& a, auto& b) { return a.value < b.value; });
-}
-
-void note_differences(const std::vector<RaceResult>& results, LabTable& table) {
-  for (const RaceResult& r : results) {
-    if (r.different_pixels > 0) {
-      table.notes.push_back(r.name + " gave another picture: " + std::to_string(r.different_pixels) +
-                            " pixels differ.");
-    }
-  }
-}
-
 }  // namespace
 
 Status run_rr612_scenes(Lab& lab, const Paper&, LabTable& table) {
@@ -83,7 +69,8 @@ Status run_rr612_gain(Lab& lab, const Paper& paper, LabTable& table) {
                    {"traditional", FigureForm::seconds},
                    {"space tracing", FigureForm::seconds},
                    {"gain factor", FigureForm::times}};
-  std::vector<Measured> shares;
+  Ratios shares;
+  lab.expect_steps(race_steps(lab, 2) * static_cast<int>(scenes.size()));
   for (const PaperScene& s : scenes) {
     const int side = lab.side(s.side);
     const Result<LabScene> scene = lab.read(s.path, side, side);
@@ -99,9 +86,9 @@ Status run_rr612_gain(Lab& lab, const Paper& paper, LabTable& table) {
     std::transform(id.begin(), id.end(), id.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     table.claims.push_back(judge(paper.claim("gain-" + id), speedup(none, space)));
-    shares.push_back({space.build.median() / space.render.median(), space.render.spread()});
+    shares.add({space.build.median() / space.render.median(), space.render.spread()});
   }
-  table.claims.push_back(judge(paper.claim("preprocessing"), largest(shares)));
+  table.claims.push_back(judge(paper.claim("preprocessing"), shares.largest()));
   return success();
 }
 
@@ -117,8 +104,9 @@ Status run_rr612_statistics(Lab& lab, const Paper& paper, LabTable& table) {
                    {"mailbox", FigureForm::percent},
                    {"synthesis", FigureForm::seconds},
                    {"subdivision", FigureForm::seconds}};
+  lab.expect_steps(race_steps(lab, 2) * static_cast<int>(scenes.size()));
   double mailboxes = 0;
-  std::vector<Measured> primary_calls, shadow_shares, level_ratios;
+  Ratios primary_calls, shadow_shares, level_ratios;
   for (const PaperScene& s : scenes) {
     const int side = lab.side(small_side);
     const Result<LabScene> scene = lab.read(s.path, side, side);
@@ -141,15 +129,15 @@ Status run_rr612_statistics(Lab& lab, const Paper& paper, LabTable& table) {
                              r.render_figure(),
                              r.build_figure()}});
       mailboxes += mailbox / static_cast<double>(2 * scenes.size());
-      primary_calls.push_back({primary.value_or(0), 0});
+      primary_calls.add({primary.value_or(0), 0});
       // IMA3 alone has transparent objects.
-      if (s.depth > 1) shadow_shares.push_back({shadow.value_or(0) / primary.value_or(1), 0});
+      if (s.depth > 1) shadow_shares.add({shadow.value_or(0) / primary.value_or(1), 0});
     }
-    level_ratios.push_back(speedup((*results)[1], (*results)[0]));
+    level_ratios.add(speedup((*results)[1], (*results)[0]));
   }
   table.claims = {
-      judge(paper.claim("mailbox"), Measured{mailboxes, 0}), judge(paper.claim("few-boxes"), largest(primary_calls)),
-      judge(paper.claim("shadow-boxes"), smallest(shadow_shares)), judge(paper.claim("level"), largest(level_ratios))};
+      judge(paper.claim("mailbox"), Measured{mailboxes, 0}), judge(paper.claim("few-boxes"), primary_calls.largest()),
+      judge(paper.claim("shadow-boxes"), shadow_shares.least()), judge(paper.claim("level"), level_ratios.largest())};
   return success();
 }
 
@@ -161,9 +149,12 @@ Status run_rr612_growth(Lab& lab, const Paper& paper, LabTable& table) {
   table.columns = {{"traditional a ray", FigureForm::seconds},
                    {"space tracing a ray", FigureForm::seconds},
                    {"gain factor", FigureForm::times}};
-  std::vector<Measured> traditional, space_traced, gains, gain_steps;
+  std::vector<Measured> traditional, gains;
+  Ratios space_traced, gain_steps;
   LabSeries without{"traditional", {}, {}, false}, with{"space tracing", {}, {}, false};
-  for (const int primitives : {72, 36, 24, 12, 8}) {
+  constexpr std::array<int, 5> sizes{72, 36, 24, 12, 8};
+  lab.expect_steps(race_steps(lab, 2) * static_cast<int>(sizes.size()));
+  for (const int primitives : sizes) {
     const int side = lab.side(small_side);
     const Result<LabScene> scene =
         lab.read("scenes/ima2.scad", side, side, {{"primitives", std::to_string(primitives)}});
@@ -175,23 +166,24 @@ Status run_rr612_growth(Lab& lab, const Paper& paper, LabTable& table) {
     table.rows.push_back({std::to_string(primitives) + " primitives",
                           {none.per_ray_figure(), space.per_ray_figure(), speedup_figure(none, space)}});
     traditional.push_back({*none.per_ray_figure().value, none.render.spread()});
-    space_traced.push_back({*space.per_ray_figure().value, space.render.spread()});
+    const Measured space_time{*space.per_ray_figure().value, space.render.spread()};
+    space_traced.add(space_time);
     gains.push_back(speedup(none, space));
     if (gains.size() > 1) {
       const Measured &more = gains[gains.size() - 2], &fewer = gains.back();
-      gain_steps.push_back({more.value / fewer.value, more.spread + fewer.spread});
+      gain_steps.add({more.value / fewer.value, more.spread + fewer.spread});
     }
-    for (auto [series, value] : {std::pair(&without, traditional.back()), std::pair(&with, space_traced.back())}) {
+    for (auto [series, value] : {std::pair(&without, traditional.back()), std::pair(&with, space_time)}) {
       series->x.push_back(primitives);
       series->y.push_back(value.value * 1e6);
     }
   }
-  const Measured slowest = largest(space_traced), fastest = smallest(space_traced);
+  const Measured slowest = space_traced.largest(), fastest = space_traced.least();
   table.claims = {
       judge(paper.claim("constant"), Measured{slowest.value / fastest.value, slowest.spread + fastest.spread}),
       judge(paper.claim("grows"), Measured{traditional.front().value / traditional.back().value,
                                            traditional.front().spread + traditional.back().spread}),
-      judge(paper.claim("gain-grows"), smallest(gain_steps))};
+      judge(paper.claim("gain-grows"), gain_steps.least())};
   table.plots = {
       {"rr612-4", "IMA2: mean time a ray", "primitives", "microseconds a ray", false, false, {without, with}}};
   return success();
@@ -209,7 +201,7 @@ Status run_rr612_memory(Lab& lab, const Paper& paper, LabTable& table) {
                    {"boxes with sub-grids", FigureForm::count},
                    {"sub-grids over one grid", FigureForm::times}};
   LabPlot plot{"rr612-memory", "Memory of space tracing", "levels of subdivision", "KiB", false, true, {}};
-  std::vector<Measured> deepest;
+  Ratios deepest;
   for (const PaperScene& s : scenes) {
     const Result<LabScene> scene = lab.read(s.path, small_side, small_side);
     if (!scene) return scene.error();
@@ -230,12 +222,12 @@ Status run_rr612_memory(Lab& lab, const Paper& paper, LabTable& table) {
                              counted(static_cast<double>(b.boxes)), counted(bytes(b) / bytes(a))}});
       one.x.push_back(levels), one.y.push_back(bytes(a) / 1024);
       two.x.push_back(levels), two.y.push_back(bytes(b) / 1024);
-      if (levels == 7) deepest.push_back({bytes(b) / bytes(a), 0});
+      if (levels == 7) deepest.add({bytes(b) / bytes(a), 0});
     }
     plot.series.push_back(std::move(one));
     plot.series.push_back(std::move(two));
   }
-  table.claims = {judge(paper.claim("subgrids"), largest(deepest))};
+  table.claims = {judge(paper.claim("subgrids"), deepest.largest())};
   table.plots = {std::move(plot)};
   return success();
 }

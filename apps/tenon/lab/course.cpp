@@ -1,0 +1,226 @@
+#include <array>
+
+#include "lab/experiments.h"
+#include "lab/race.h"
+#include "lab/ratios.h"
+
+namespace tenon {
+
+namespace {
+
+using Definitions = std::vector<std::pair<std::string, std::string>>;
+
+// A hundred to a thousand primitives each, so that structures matter and `none` ends in time.
+constexpr std::array<const char*, 4> scenes{"checkered_cube", "gear_plate", "swiss_cheese", "large_shell"};
+constexpr int width = 160, height = 120;
+
+std::string bench_path(const std::string& name) {
+  return "scenes/bench/" + name + ".scad";
+}
+
+double a_ray(std::uint64_t count, const RaceResult& r) {
+  return static_cast<double>(count) / r.rays();
+}
+
+double tests(const RaceResult& r) {
+  return static_cast<double>(r.statistics.total().primitive_tests);
+}
+
+const std::vector<LabColumn> structure_columns{{"build", FigureForm::seconds},      {"memory", FigureForm::bytes},
+                                               {"time a ray", FigureForm::seconds}, {"tests a ray", FigureForm::number},
+                                               {"cells a ray", FigureForm::number}, {"mailbox", FigureForm::percent}};
+
+LabRow structure_row(const std::string& scene, const RaceResult& r) {
+  const TraversalCounters total = r.statistics.total();
+  return {scene + ", " + r.name,
+          {r.build_figure(), counted(static_cast<double>(r.figures.memory_bytes)), r.per_ray_figure(),
+           counted(a_ray(total.primitive_tests, r)), counted(a_ray(total.cells_visited, r)),
+           counted(mailbox_share(r.statistics))}};
+}
+
+/// The same structures on every scene; `then` gets what came of each.
+Status compare_structures(Lab& lab, const std::vector<std::string>& specs, LabTable& table,
+                          FunctionRef<void(const std::vector<RaceResult>&)> then) {
+  table.columns = structure_columns;
+  lab.expect_steps(race_steps(lab, specs.size()) * static_cast<int>(scenes.size()));
+  for (const char* name : scenes) {
+    const Result<LabScene> scene = lab.read(bench_path(name), lab.side(width), lab.side(height));
+    if (!scene) return scene.error();
+    std::vector<Contender> contenders;
+    for (const std::string& spec : specs) contenders.push_back({spec, &*scene, spec});
+    const auto results = race(lab, contenders, RenderOptions{});
+    if (!results) return results.error();
+    note_differences(*results, table);
+    for (const RaceResult& r : *results) table.rows.push_back(structure_row(name, r));
+    then(*results);
+  }
+  return success();
+}
+
+/// A variable of a scene that chooses a method, and its values.
+struct Variants {
+  std::string name;  ///< of the row
+  std::string path;
+  std::vector<std::pair<std::string, Definitions>> choices;  ///< the first is what others are held against
+  bool is_approximate = false;                               ///< methods may differ in the picture
+};
+
+/// One scene by several methods of its primitives, under `cells`, each a column.
+Status compare_methods(Lab& lab, const Variants& variants, LabTable& table, int picture_width, int picture_height) {
+  std::vector<LabScene> read;
+  for (const auto& [name, definitions] : variants.choices) {
+    Result<LabScene> scene = lab.read(variants.path, lab.side(picture_width), lab.side(picture_height), definitions);
+    if (!scene) return scene.error();
+    read.push_back(std::move(*scene));
+  }
+  std::vector<Contender> contenders;
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    contenders.push_back({variants.choices[i].first, &read[i], "nbvh", variants.is_approximate});
+  }
+  const auto results = race(lab, contenders, RenderOptions{});
+  if (!results) return results.error();
+  note_differences(*results, table);
+  LabRow row{variants.name, {}};
+  for (const RaceResult& r : *results) row.figures.push_back(r.per_ray_figure());
+  for (std::size_t i = 1; i < results->size(); ++i)
+    row.figures.push_back(speedup_figure((*results)[i], results->front()));
+  table.rows.push_back(std::move(row));
+  return success();
+}
+
+void method_columns(const std::vector<std::string>& methods, LabTable& table) {
+  for (const std::string& m : methods) table.columns.push_back({m, FigureForm::seconds});
+  for (std::size_t i = 1; i < methods.size(); ++i) {
+    table.columns.push_back({methods[i] + " over " + methods.front(), FigureForm::times});
+  }
+}
+
+constexpr const char* about_structures =
+    "Pictures of 160 x 120 at full effort, with shadow rays; the bench's scenes of 151 to 1,001 primitives.";
+constexpr const char* about_methods =
+    "Time a ray of whole pictures, 160 x 120 at full effort, with NBVH above the primitives; shadow rays included.";
+
+}  // namespace
+
+Status run_course_hierarchies(Lab& lab, const Paper& paper, LabTable& table) {
+  table.title = "Median cut, Goldsmith and Salmon, SAH";
+  table.about = std::string(about_structures) +
+                " SAH is that of the OKD-tree and of the BSP tree (MacDonald and Booth): "
+                "there is no hierarchy of boxes by SAH among the papers' structures.";
+  Ratios hierarchy, goldsmith, sah;
+  const Status status =
+      compare_structures(lab, {"none", "median-bvh", "goldsmith-bvh", "okd:split=sah", "bsp:split=macdonald-booth"},
+                         table, [&](const std::vector<RaceResult>& r) {
+                           hierarchy.add(speedup(r[0], r[1]));
+                           goldsmith.add(speedup(r[1], r[2]));
+                           sah.add(speedup(r[1], r[3]));
+                         });
+  if (!status) return status;
+  table.claims = {judge(paper.claim("hierarchy"), hierarchy.least()), judge(paper.claim("goldsmith"), goldsmith.mean()),
+                  judge(paper.claim("sah"), sah.mean())};
+  return success();
+}
+
+Status run_course_volumes(Lab& lab, const Paper& paper, LabTable& table) {
+  table.title = "Bounding volumes: boxes, spheres, ellipsoids, slabs";
+  table.about = std::string(about_structures) +
+                " Median cut; `filter` sorts primary rays out by the volumes' rectangles on "
+                "the screen.";
+  Ratios filter, polyhedron;
+  const Status status =
+      compare_structures(lab,
+                         {"median-bvh:volume=box", "median-bvh:volume=box,filter=on", "median-bvh:volume=sphere",
+                          "median-bvh:volume=ellipsoid", "median-bvh:volume=slabs"},
+                         table, [&](const std::vector<RaceResult>& r) {
+                           filter.add(speedup(r[0], r[1]));
+                           polyhedron.add({tests(r[0]) / tests(r[4]), 0});
+                         });
+  if (!status) return status;
+  table.claims = {judge(paper.claim("filter"), filter.mean()), judge(paper.claim("polyhedron"), polyhedron.mean())};
+  return success();
+}
+
+Status run_course_steps(Lab& lab, const Paper& paper, LabTable& table) {
+  table.title = "The uniform grid: the classical step against Amanatides's";
+  table.about = about_structures;
+  Ratios ratios;
+  const Status status = compare_structures(lab, {"grid:step=classic", "grid:step=amanatides"}, table,
+                                           [&](const auto& r) { ratios.add(speedup(r[0], r[1])); });
+  if (!status) return status;
+  table.claims = {judge(paper.claim("amanatides"), ratios.mean())};
+  return success();
+}
+
+Status run_course_grids(Lab& lab, const Paper& paper, LabTable& table) {
+  table.title = "Uniform grid, non-uniform grid, space tracing's projected trees";
+  table.about = about_structures;
+  Ratios ratios;
+  const Status status =
+      compare_structures(lab, {"grid", "nonuniform-grid", "space-tracing"}, table, [&](const auto& r) {
+        ratios.add({tests(r[0]) / tests(r[1]), 0});
+      });
+  if (!status) return status;
+  table.claims = {judge(paper.claim("few-objects"), ratios.mean())};
+  return success();
+}
+
+Status run_course_polygons(Lab& lab, const Paper&, LabTable& table) {
+  table.title = "Polygons: Snyder's test against Marchal's";
+  table.about =
+      std::string(about_methods) + " 400 stars (`lab/scenes/stars.scad`). The course calls neither the faster.";
+  method_columns({"snyder", "marchal"}, table);
+  constexpr std::array<int, 4> corners{3, 8, 32, 128};
+  lab.expect_steps(race_steps(lab, 2) * static_cast<int>(corners.size()));
+  for (const int n : corners) {
+    Variants variants{std::to_string(n) + " corners", "lab/scenes/stars.scad", {}, false};
+    for (const std::string method : {"snyder", "marchal"}) {
+      variants.choices.emplace_back(method,
+                                    Definitions{{"corners", std::to_string(n)}, {"method", '"' + method + '"'}});
+    }
+    if (Status status = compare_methods(lab, variants, table, width, height); !status) return status;
+  }
+  return success();
+}
+
+Status run_course_roots(Lab& lab, const Paper&, LabTable& table) {
+  table.title = "Algebraic surfaces: isolation of roots, and their refinement";
+  table.about = std::string(about_methods) +
+                " Isolation by intervals or by Collins's method, then Newton's, Laguerre's or "
+                "Bairstow's iteration. The course calls none the fastest.";
+  const std::array<std::pair<const char*, const char*>, 4> methods{
+      {{"interval", "newton"}, {"collins", "newton"}, {"interval", "laguerre"}, {"interval", "bairstow"}}};
+  std::vector<std::string> names;
+  for (const auto& [isolation, refinement] : methods) names.push_back(std::string(isolation) + ", " + refinement);
+  method_columns(names, table);
+  const std::array<std::pair<const char*, const char*>, 4> surfaces{{{"Cayley's cubic, degree 3", "cayley"},
+                                                                     {"Steiner's surface, degree 4", "steiner"},
+                                                                     {"Heart, degree 6", "heart"},
+                                                                     {"Barth's sextic, degree 6", "barth_sextic"}}};
+  lab.expect_steps(race_steps(lab, methods.size()) * static_cast<int>(surfaces.size()));
+  for (const auto& [name, file] : surfaces) {
+    // Newton's iteration and the others end within the same bound, not at the same number.
+    Variants variants{name, "scenes/" + std::string(file) + ".scad", {}, true};
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+      variants.choices.emplace_back(names[i], Definitions{{"isolation", '"' + std::string(methods[i].first) + '"'},
+                                                          {"refinement", '"' + std::string(methods[i].second) + '"'}});
+    }
+    if (Status status = compare_methods(lab, variants, table, width / 2, height / 2); !status) return status;
+  }
+  return success();
+}
+
+Status run_course_patches(Lab& lab, const Paper&, LabTable& table) {
+  table.title = "Bicubic patches: polygons, subdivision, numerical methods";
+  table.about = std::string(about_methods) +
+                " Newell's teapot, 32 patches. `interval` and `resultant` (Kajiya) find the "
+                "patch itself; subdivision ends at parts of 0.001, polygons are 16 x 16 a patch. The course calls none "
+                "the fastest.";
+  const std::vector<std::string> methods{"interval", "resultant", "subdivision", "polygons"};
+  method_columns(methods, table);
+  Variants variants{"Newell's teapot", "scenes/teapot.scad", {}, true};
+  for (const std::string& m : methods) variants.choices.emplace_back(m, Definitions{{"method", '"' + m + '"'}});
+  lab.expect_steps(race_steps(lab, methods.size()));
+  return compare_methods(lab, variants, table, width / 2, height / 2);
+}
+
+}  // namespace tenon
