@@ -1,5 +1,6 @@
 #include "lang/flat_outline.h"
 
+#include "lang/primitive_arguments.h"
 #include "plane/mapped_outline.h"
 #include "plane/shape.h"
 
@@ -71,15 +72,8 @@ Outline outline_of(ModuleEvaluator& evaluator, const Solid& shape, Place at) {
 
 Solid flat_solid(ModuleEvaluator& evaluator, Outline outline, Place at) {
   if (outline.loops.empty()) return Solid::nothing();
-  SceneBuilder& builder = evaluator.builder();
-  const Result<PrimitiveId> made = builder.model().graph.primitives.add(
-      *PrimitiveStore::find_kind("prism"), std::vector<FieldValue>{std::move(outline), 1.0, false, 1.0});
-  if (!made) {
-    evaluator.environment().warn(at, made.error().message);
-    return Solid::nothing();
-  }
-  Solid shape = builder.leaf(*made);
-  shape.flat = true;
+  Solid shape = add_primitive(evaluator, at, "prism", {std::move(outline), 1.0, false, 1.0});
+  shape.flat = !shape.is_nothing();
   return shape;
 }
 

@@ -4,6 +4,7 @@
 #include "lang/facets.h"
 #include "lang/flat_outline.h"
 #include "lang/flat_shapes.h"
+#include "lang/hull_of_solids.h"
 #include "lang/primitive_arguments.h"
 #include "plane/convex_outline.h"
 #include "plane/offset.h"
@@ -35,8 +36,8 @@ std::optional<Solid> hull(ModuleCall& call) {
   const Solids parts = evaluator.children(*call.instantiation.children, call.scope);
   const bool empty = std::all_of(parts.begin(), parts.end(), [](const Solid& part) { return part.is_nothing(); });
   if (empty) return Solid::nothing();
-  if (!are_flat(parts)) fail(call.at(), "hull() of solids is not supported yet; remove it, or disable it with '*'");
   const Solid shape = evaluator.builder().unite(parts);
+  if (!are_flat(parts)) return hull_of_solids(evaluator, shape, call.at());
   return flat_solid(evaluator, convex_hull(outline_of(evaluator, shape, call.at())), call.at());
 }
 

@@ -7,7 +7,6 @@
 #include "lang/format.h"
 #include "lang/polyhedron.h"
 #include "lang/primitive_arguments.h"
-#include "mesh/build_mesh.h"
 #include "primitive/flatness.h"
 
 namespace tenon::lang {
@@ -102,36 +101,9 @@ Faces require_faces(const ModuleArguments& arguments, std::size_t index) {
   return faces;
 }
 
-constexpr std::size_t most_planes = 32;
-
-PolygonSoup soup_of(const std::vector<Vec3>& points, const Faces& faces) {
-  PolygonSoup soup;
-  soup.points = points;
-  for (const std::vector<std::size_t>& face : faces) {
-    soup.add_face(std::vector<std::uint32_t>(face.begin(), face.end()));
-  }
-  return soup;
-}
-
-std::optional<Solid> make_mesh(ModuleCall& call, const PolygonSoup& soup) {
-  Result<BuiltMesh> built = build_mesh(soup, "the polyhedron", false);
-  if (!built) fail(call.at(), built.error().message);
-  for (const std::string& note : built->notes) call.evaluator.environment().warn(call.at(), note);
-  return make_primitive(call, "mesh", {std::make_shared<const TriangleMesh>(std::move(built->mesh)), false});
-}
-
 std::optional<Solid> polyhedron_of(ModuleCall& call, const std::vector<Vec3>& points, const Faces& faces) {
-  auto result = planes_of(points, faces);
-  const auto* planes = std::get_if<0>(&result);
-  const bool is_general = !planes && std::get<1>(result).is_general;
-  // The time of every ray grows with the number of planes, of a mesh's with its logarithm.
-  if (is_general || (planes && planes->size() > most_planes)) return make_mesh(call, soup_of(points, faces));
-  if (const auto* bad = std::get_if<BadPolyhedron>(&result)) {
-    if (!bad->empty) fail(call.at(), bad->message);
-    call.evaluator.environment().warn(call.at(), bad->message);
-    return Solid::nothing();
-  }
-  return make_polyhedron(call, std::get<0>(std::move(result)));
+  warn_of_children(call);
+  return polyhedron_solid(call.evaluator, points, faces, call.at());
 }
 
 std::optional<Solid> polyhedron(ModuleCall& call) {

@@ -6,6 +6,9 @@
 #include <optional>
 #include <utility>
 
+#include "lang/primitive_arguments.h"
+#include "mesh/build_mesh.h"
+
 namespace tenon::lang {
 
 namespace {
@@ -122,6 +125,19 @@ class PlaneFinder {
   std::vector<Plane> planes_;
 };
 
+constexpr std::size_t most_planes = 32;
+
+Solid mesh_solid(ModuleEvaluator& evaluator, const std::vector<Vec3>& points, const std::vector<Face>& faces,
+                 Place at) {
+  PolygonSoup soup;
+  soup.points = points;
+  for (const Face& face : faces) soup.add_face(std::vector<std::uint32_t>(face.begin(), face.end()));
+  Result<BuiltMesh> built = build_mesh(soup, "the polyhedron", false);
+  if (!built) fail(at, built.error().message);
+  for (const std::string& note : built->notes) evaluator.environment().warn(at, note);
+  return add_primitive(evaluator, at, "mesh", {std::make_shared<const TriangleMesh>(std::move(built->mesh)), false});
+}
+
 }  // namespace
 
 std::variant<std::vector<Plane>, BadPolyhedron> planes_of(const std::vector<Vec3>& points,
@@ -154,6 +170,21 @@ std::variant<std::vector<Plane>, BadPolyhedron> planes_of(const std::vector<Vec3
     return BadPolyhedron{"the polyhedron is not convex", false, true};
   }
   return finder.planes();
+}
+
+Solid polyhedron_solid(ModuleEvaluator& evaluator, const std::vector<Vec3>& points, const std::vector<Face>& faces,
+                       Place at) {
+  auto result = planes_of(points, faces);
+  const auto* planes = std::get_if<0>(&result);
+  const bool is_general = !planes && std::get<1>(result).is_general;
+  // The time of every ray grows with the number of planes, of a mesh's with its logarithm.
+  if (is_general || (planes && planes->size() > most_planes)) return mesh_solid(evaluator, points, faces, at);
+  if (const auto* bad = std::get_if<BadPolyhedron>(&result)) {
+    if (!bad->empty) fail(at, bad->message);
+    evaluator.environment().warn(at, bad->message);
+    return Solid::nothing();
+  }
+  return add_primitive(evaluator, at, "convex_polyhedron", {std::get<0>(std::move(result))});
 }
 
 }  // namespace tenon::lang

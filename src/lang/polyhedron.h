@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "tenon/primitive/primitive_store.h"
+#include "lang/module_evaluator.h"
 
 namespace tenon::lang {
 
@@ -18,5 +18,11 @@ struct BadPolyhedron {
 /// The planes of a convex polyhedron given by its corners and faces. Faces may be oriented either way.
 std::variant<std::vector<Plane>, BadPolyhedron> planes_of(const std::vector<Vec3>& points,
                                                           const std::vector<std::vector<std::size_t>>& faces);
+
+/// The solid that faces enclose: by planes where it is convex and has few, else by a mesh. Fails where they enclose
+/// none; warns, and makes nothing, where it has no volume.
+/// @param at  of what asks for it
+Solid polyhedron_solid(ModuleEvaluator& evaluator, const std::vector<Vec3>& points,
+                       const std::vector<std::vector<std::size_t>>& faces, Place at);
 
 }  // namespace tenon::lang

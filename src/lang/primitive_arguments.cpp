@@ -4,20 +4,27 @@
 
 namespace tenon::lang {
 
-Solid make_primitive(ModuleCall& call, std::string_view kind, const std::vector<FieldValue>& values) {
-  ModuleEvaluator& evaluator = call.evaluator;
-  // OpenSCAD drops them in silence; mostly a semicolon is missing, and with it a part of the solid.
-  if (!call.instantiation.children->instantiations.empty()) {
-    const Instantiation& dropped = *call.instantiation.children->instantiations.front();
-    const std::string name = evaluator.environment().text(call.instantiation.name);
-    evaluator.environment().warn(
-        dropped.at, name + "() has no children; what stands here is dropped (is a ';' missing after " + name + "()?)");
-  }
+// OpenSCAD drops them in silence; mostly a semicolon is missing, and with it a part of the solid.
+void warn_of_children(ModuleCall& call) {
+  if (call.instantiation.children->instantiations.empty()) return;
+  const Instantiation& dropped = *call.instantiation.children->instantiations.front();
+  const std::string name = call.evaluator.environment().text(call.instantiation.name);
+  call.evaluator.environment().warn(
+      dropped.at, name + "() has no children; what stands here is dropped (is a ';' missing after " + name + "()?)");
+}
+
+Solid add_primitive(ModuleEvaluator& evaluator, Place at, std::string_view kind,
+                    const std::vector<FieldValue>& values) {
   const Result<PrimitiveId> made =
       evaluator.builder().model().graph.primitives.add(*PrimitiveStore::find_kind(kind), values);
   if (made) return evaluator.builder().leaf(*made);
-  evaluator.environment().warn(call.at(), made.error().message);
+  evaluator.environment().warn(at, made.error().message);
   return Solid::nothing();
+}
+
+Solid make_primitive(ModuleCall& call, std::string_view kind, const std::vector<FieldValue>& values) {
+  warn_of_children(call);
+  return add_primitive(call.evaluator, call.at(), kind, values);
 }
 
 std::optional<double> number_argument(ModuleCall& call, const ModuleArguments& arguments, std::size_t index,

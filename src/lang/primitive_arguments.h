@@ -4,7 +4,12 @@
 
 namespace tenon::lang {
 
+/// Warns of children of a module that takes none: they are dropped.
+void warn_of_children(ModuleCall& call);
+
 /// A primitive, or a warning and nothing where its size makes none.
+Solid add_primitive(ModuleEvaluator& evaluator, Place at, std::string_view kind, const std::vector<FieldValue>& values);
+/// The one that a call without children makes.
 Solid make_primitive(ModuleCall& call, std::string_view kind, const std::vector<FieldValue>& values);
 
 /// The number given for a parameter. As in OpenSCAD, what is no number is as if it had not been given, but not

@@ -27,6 +27,9 @@ class ConvexPolyhedron {
   void prepare();
   std::string check() const { return problem_; }
 
+  /// Where three planes or more meet; the same place may occur more than once, off by rounding.
+  const std::vector<Vec3>& vertices() const { return vertices_; }
+
   double support(const Vec3& n) const {
     double greatest = -std::numeric_limits<double>::infinity();
     for (const Vec3& v : vertices_) greatest = std::max(greatest, dot(n, v));
