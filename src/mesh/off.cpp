@@ -51,6 +51,11 @@ Result<PolygonSoup> read_off(const MeshFile& file) {
     }
     soup.add_face(face);
   }
+  if (scanner.next_content_line()) {
+    scanner.word();
+    return scanner.error("the OFF file says it has " + std::to_string(counts[0]) + " points and " +
+                         std::to_string(counts[1]) + " faces, but more follows here; correct its counts");
+  }
   return soup;
 }
 

@@ -132,6 +132,15 @@ class Body {
     return std::nullopt;
   }
 
+  /// Whether nothing is left but blanks.
+  bool is_at_end() {
+    if (text_ != nullptr) return text_->word_across_lines().empty();
+    for (ByteReader rest = bytes_; const auto byte = rest.read<char>();) {
+      if (*byte != ' ' && *byte != '\n' && *byte != '\r' && *byte != '\0') return false;
+    }
+    return true;
+  }
+
   Error error(const std::string& message) const {
     if (text_ != nullptr) return text_->error(message);
     return Error{ErrorKind::input,
@@ -163,6 +172,9 @@ class PlyReader {
                       : element.name == "face" ? read_faces(element)
                                                : pass_over(element);
       if (!status) return status.error();
+    }
+    if (!body_.is_at_end()) {
+      return body_.error("the PLY file goes on behind the elements that its header counts; correct the counts");
     }
     if (soup_.face_count() == 0) return body_.error("the PLY file has no faces; a cloud of points makes no solid");
     for (const std::uint32_t corner : soup_.corners) {

@@ -155,6 +155,9 @@ TEST_F(MeshFileTest, WhatIsWrongIsSaidWithItsPlace) {
   std::string ply = binary_ply(false);
   ply.resize(ply.size() - 1);
   expect_error("a.ply", ply, "says it has 4 face elements, but number 3 is cut off");
+  expect_error("a.off", off("3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n", 3),
+               "a.off:11:1: error: the OFF file says it has 4 points and 3 faces, but more follows here");
+  expect_error("a.ply", binary_ply(false) + "abc", "goes on behind the elements that its header counts");
   expect_error("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty vec3 x\n",
                "a.ply:4:10: error: 'vec3' is no type");
   expect_error("a.dxf", "", "files that end in .stl, .obj, .off, .ply or .3mf, not '.dxf'");
