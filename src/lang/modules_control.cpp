@@ -73,15 +73,20 @@ void add_index(double number, std::size_t count, ModuleCall& call, std::vector<s
   }
 }
 
-std::optional<Solid> children(ModuleCall& call) {
+// The children that the module around a call was given; nothing, with a warning, where there is no module around it.
+std::optional<ChildrenFrame> frame_around(ModuleCall& call) {
   const Scope* around = &call.scope;
   while (around && !around->children) around = around->parent();
-  if (!around) {
-    call.evaluator.environment().warn(call.at(), "children() stands outside of all modules; it makes nothing");
-    return Solid::nothing();
-  }
-  const ChildrenFrame frame = *around->children;
-  const std::size_t count = frame.block->instantiations.size();
+  if (around) return *around->children;
+  const std::string name = call.evaluator.environment().text(call.instantiation.name);
+  call.evaluator.environment().warn(call.at(), name + "() stands outside of all modules; it makes nothing");
+  return std::nullopt;
+}
+
+std::optional<Solid> children(ModuleCall& call) {
+  const std::optional<ChildrenFrame> frame = frame_around(call);
+  if (!frame) return Solid::nothing();
+  const std::size_t count = frame->block->instantiations.size();
   std::vector<std::size_t> which;
   if (call.instantiation.arguments.empty()) {
     for (std::size_t i = 0; i < count; ++i) which.push_back(i);
@@ -98,7 +103,22 @@ std::optional<Solid> children(ModuleCall& call) {
       if (item.number()) add_index(*item.number(), count, call, which);
     });
   }
-  return call.evaluator.builder().unite(call.evaluator.children(*frame.block, which, *frame.scope));
+  return call.evaluator.builder().unite(call.evaluator.children(*frame->block, which, *frame->scope));
+}
+
+// What children() was before it took lists: one child, the first if no number is given.
+std::optional<Solid> child(ModuleCall& call) {
+  call.evaluator.environment().warn(call.at(), "child() is deprecated; write children(0), or the number of another");
+  const std::optional<ChildrenFrame> frame = frame_around(call);
+  if (!frame) return Solid::nothing();
+  double number = 0;
+  if (!call.instantiation.arguments.empty()) {
+    const Value index = call.evaluator.expressions().evaluate(*call.instantiation.arguments[0].value, call.scope);
+    number = index.number() ? *index.number() : 0;
+  }
+  std::vector<std::size_t> which;
+  add_index(number, frame->block->instantiations.size(), call, which);
+  return call.evaluator.builder().unite(call.evaluator.children(*frame->block, which, *frame->scope));
 }
 
 }  // namespace
@@ -107,7 +127,7 @@ void add_control_modules(BuiltinModuleTable& table, SymbolTable& symbols) {
   const std::pair<const char*, BuiltinModule> modules[] = {
       {"if", if_},         {"for", for_},          {"intersection_for", intersection_for},
       {"let", let},        {"assign", assign},     {"echo", echo},
-      {"assert", assert_}, {"children", children},
+      {"assert", assert_}, {"children", children}, {"child", child},
   };
   for (const auto& [name, module] : modules) table.emplace(symbols.intern(name), module);
 }

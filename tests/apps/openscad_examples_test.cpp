@@ -15,7 +15,6 @@ const std::map<std::string, std::string> waiting{
     {"GEB", "projection() is not supported yet"},
     {"echo", "the scene holds no solid"},  // it only prints
     {"example021", "projection() is not supported yet"},
-    {"example023", "there is no file 'MCAD/fonts.scad'"},  // a library that another package holds
     {"projection", "projection() is not supported yet"},
     {"surface_image", "projection() is not supported yet"},
 };
@@ -28,6 +27,8 @@ TEST_F(OpenScadExamples, EachRendersOrNamesWhatItWaitsFor) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(examples)) {
     if (entry.path().extension() != ".scad") continue;
     const std::string name = entry.path().stem().string();
+    // It uses a library that another package holds.
+    if (name == "example023" && !std::filesystem::exists("/usr/share/openscad/libraries/MCAD")) continue;
     const Outcome outcome = run({"render", entry.path().string(), "-o", name + ".png", "--size", "64x48", "--quiet"});
     const bool picture = std::filesystem::exists(folder / (name + ".png"));
     if (const auto reason = waiting.find(name); reason != waiting.end()) {

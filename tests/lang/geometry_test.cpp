@@ -69,6 +69,13 @@ TEST(Modules, ChildrenAreOneGroup) {
             "}\n");
 }
 
+TEST(Modules, ChildIsOneOfTheChildren) {
+  EXPECT_EQ(tree_of("module m() child(); m() { cube(2); sphere(1); }"), cube2);
+  EXPECT_EQ(tree_of("module m() child(1); m() { sphere(1); cube(2); }"), cube2);
+  EXPECT_NE(warnings_of("module m() child(2); m() { cube(2); sphere(1); } cube();").find("there is no child 2"),
+            std::string::npos);
+}
+
 TEST(Modules, UsersOwnHideTheBuiltIn) {
   EXPECT_EQ(tree_of("module torus() cube(2); torus();"), cube2);
   EXPECT_EQ(tree_of("include <tenon.scad>\nuse <some/folder/tenon.scad>\nmodule sphere() cube(2); sphere();"), cube2);
