@@ -66,25 +66,23 @@ void TwistedPrism::spans(const LocalRay& ray, Spans& out) const {
 }
 
 double TwistedPrism::support(const Vec3& n) const {
-  // At each of many heights, and between them no more than the motion allows: a point moves across by the turn and by
-  // the change of scale.
-  const double turns = std::fabs(twist) / 360;
-  const int steps = 256 * static_cast<int>(1 + std::min(turns, 64.0));
+  // At each of many heights. Between two of them no point goes beyond the straight way by more than an eighth of the
+  // square of the step times its acceleration: of the turn, and of the turn and the change of scale together.
+  const double turn = half_pi * std::fabs(twist / 90);
+  const double growth = std::max(std::fabs(scale_x - 1), std::fabs(scale_y - 1));
+  const double acceleration = turn * (turn * reach_ + 2 * growth * length(edges_.reach()));
+  const int steps = turn == 0 ? 1 : 256 * static_cast<int>(1 + std::min(std::fabs(twist) / 360, 64.0));
   const double across = std::sqrt(n.x * n.x + n.y * n.y);
-  const double speed =
-      reach_ * 4 * half_pi * turns + length(edges_.reach()) * std::max(std::fabs(scale_x - 1), std::fabs(scale_y - 1));
-  const double slack = across * speed * 0.5 / steps * (1 + gamma(8));
+  const double slack = across * acceleration / (8.0 * steps * steps) * (1 + gamma(8));
   double best = -Box3::inf;
   for (int i = 0; i <= steps; ++i) {
     const double share = static_cast<double>(i) / steps;
     const auto [sine, cosine] = quarter_turn_sine_cosine(twist / 90 * share);
     const double a = n.x * (1 + (scale_x - 1) * share), b = n.y * (1 + (scale_y - 1) * share);
     const double flat = edges_.support({cosine * a - sine * b, sine * a + cosine * b});
-    // The end of the step that is farther along n.
-    const double end = std::clamp(share + std::copysign(0.5 / steps, n.z), 0.0, 1.0);
-    best = std::max(best, flat + n.z * (low() + end * h));
+    best = std::max(best, flat + n.z * (low() + share * h));
   }
-  return best + slack + gamma(32) * (across * reach_ + std::fabs(n.z) * (h + std::fabs(low())));
+  return best + slack + gamma(32) * (across * reach_ * (1 + turn) + std::fabs(n.z) * (h + std::fabs(low())));
 }
 
 Region TwistedPrism::classify(const LocalBox& box) const {
