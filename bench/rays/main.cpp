@@ -20,13 +20,14 @@ struct Part {
   Status (*run)(const PartOptions& options, Report& report);
 };
 
-constexpr std::array<Part, 7> parts{{{"structures", run_structures},
+constexpr std::array<Part, 8> parts{{{"structures", run_structures},
                                      {"embree", run_embree},
                                      {"povray", run_povray},
                                      {"start", run_start},
                                      {"cores", run_cores},
                                      {"growth", run_growth},
-                                     {"path", run_path}}};
+                                     {"path", run_path},
+                                     {"bunny", run_bunny}}};
 
 int run(const Part& part, const PartOptions& options) {
   Report report(part.name);

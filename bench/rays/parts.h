@@ -32,4 +32,7 @@ Status run_start(const PartOptions& options, Report& report);
 /// Whole pictures against POV-Ray's.
 Status run_povray(const PartOptions& options, Report& report);
 
+/// The Stanford bunny in Booleans against winding numbers, and bare against Embree.
+Status run_bunny(const PartOptions& options, Report& report);
+
 }  // namespace tenon::bench
