@@ -12,10 +12,8 @@ const std::filesystem::path examples = "/usr/share/openscad/examples";
 
 // What each example waits for; an example that is not listed renders.
 const std::map<std::string, std::string> waiting{
-    {"GEB", "projection() is not supported yet"},
-    {"echo", "the scene holds no solid"},  // it only prints
-    {"example021", "projection() is not supported yet"},
-    {"projection", "projection() is not supported yet"},
+    {"GEB", "projection() is not supported yet"},           {"echo", "the scene holds no solid"},  // it only prints
+    {"example021", "projection() is not supported yet"},    {"projection", "projection() is not supported yet"},
     {"surface_image", "projection() is not supported yet"},
 };
 
