@@ -5,9 +5,12 @@
 
 #include "lang/flat_outline.h"
 #include "lang/primitive_arguments.h"
+#include "mesh/convex_hull.h"
 #include "plane/arc_corners.h"
 #include "plane/convex_outline.h"
 #include "plane/mapped_outline.h"
+#include "plane/minkowski.h"
+#include "plane/shape.h"
 #include "primitive/convex_polyhedron.h"
 #include "primitive/outline_edges.h"
 
@@ -22,11 +25,91 @@ double number(const UnionLeaf& leaf, std::size_t field) {
   return std::get<double>(leaf.values[field]);
 }
 
+/// A Boolean expression over outlines, swept between two planes.
+struct SweptShape {
+  Shape shape;
+  double low = 0, high = 0;
+};
+
+/// Takes what operations make of extrusions along one axis for an extrusion, where it is one.
+class ShapeSweeper {
+ public:
+  explicit ShapeSweeper(const SceneGraph& graph) : graph_(graph) {}
+
+  std::optional<UnionLeaf> sweep(SceneNodeId id, const Affine3& map) {
+    const auto swept = swept_shape(id, map);
+    if (!swept || !(swept->low < swept->high)) return std::nullopt;
+    Outline outline = resolve(swept->shape);
+    if (outline.loops.empty()) return std::nullopt;
+    return UnionLeaf{"prism",
+                     {std::move(outline), swept->high - swept->low, false, 1.0},
+                     frame_ * Affine3::translate({0, 0, swept->low})};
+  }
+
+ private:
+  std::optional<SweptShape> swept_shape(SceneNodeId id, const Affine3& map) {
+    const SceneNode& node = graph_[id];
+    if (const auto* leaf = std::get_if<PrimitiveLeaf>(&node.content)) return swept_leaf(leaf->primitive, map);
+    const auto* transform = std::get_if<Transform>(&node.content);
+    std::vector<SweptShape> parts;
+    for (const SceneNodeId child : node.children) {
+      auto part = swept_shape(child, transform ? map * transform->parent_from_child : map);
+      if (!part) return std::nullopt;
+      parts.push_back(std::move(*part));
+    }
+    const auto* operation = std::get_if<SetOperation>(&node.content);
+    return operation ? combined(*operation, std::move(parts)) : combined(SetOperation::union_, std::move(parts));
+  }
+
+  // The first one sets the frame.
+  std::optional<SweptShape> swept_leaf(PrimitiveId id, const Affine3& map) {
+    const UnionLeaf leaf{graph_.primitives.kind(id).name, graph_.primitives.values(id), map};
+    const auto extrusion = extrusion_of(leaf);
+    if (!to_frame_) {
+      frame_ = map;
+      to_frame_ = map.inverse();
+    }
+    if (!extrusion || !to_frame_) return std::nullopt;
+    const auto aligned = aligned_extrusion(*extrusion, *to_frame_ * map);
+    if (!aligned) return std::nullopt;
+    return SweptShape{Shape::of(aligned->outline), aligned->low, aligned->high};
+  }
+
+  static std::optional<SweptShape> combined(SetOperation operation, std::vector<SweptShape> parts) {
+    SweptShape result{{}, parts.front().low, parts.front().high};
+    // Of heights that were computed in two ways.
+    const double near = 0x1p-40 * (std::fabs(result.low) + std::fabs(result.high));
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      SweptShape& part = parts[i];
+      if (operation == SetOperation::intersection) {
+        result.low = std::max(result.low, part.low);
+        result.high = std::min(result.high, part.high);
+      } else if (i > 0 && operation == SetOperation::difference) {
+        // What passes by takes nothing, and what goes through takes all between the planes.
+        if (part.high <= result.low + near || part.low >= result.high - near) continue;
+        if (part.low > result.low + near || part.high < result.high - near) return std::nullopt;
+      } else if (std::fabs(part.low - result.low) > near || std::fabs(part.high - result.high) > near) {
+        return std::nullopt;
+      }
+      result.shape.parts.push_back(std::move(part.shape));
+    }
+    if (operation == SetOperation::complement) return std::nullopt;
+    result.shape.operation = operation == SetOperation::union_         ? Shape::Operation::unite
+                             : operation == SetOperation::intersection ? Shape::Operation::intersect
+                                                                       : Shape::Operation::subtract;
+    return result;
+  }
+
+  const SceneGraph& graph_;
+  Affine3 frame_;
+  std::optional<Affine3> to_frame_;
+};
+
 class LeafCollector {
  public:
   LeafCollector(ModuleEvaluator& evaluator, Place at) : evaluator_(evaluator), at_(at) {}
 
-  // False where something else than a union is met.
+  // False where something else than a union is met, or an extrusion.
   bool collect(SceneNodeId id, const Affine3& map) {
     evaluator_.expressions().check_depth(at_);
     const SceneGraph& graph = evaluator_.builder().model().graph;
@@ -36,8 +119,11 @@ class LeafCollector {
       return true;
     }
     const auto* operation = std::get_if<SetOperation>(&node.content);
-    if (operation && *operation != SetOperation::union_ && node.children.size() != 1) return false;
-    if (operation && *operation == SetOperation::complement) return false;
+    if (operation && *operation != SetOperation::union_) {
+      auto extrusion = ShapeSweeper(graph).sweep(id, map);
+      if (extrusion) leaves.push_back(std::move(*extrusion));
+      return extrusion.has_value();
+    }
     const auto* transform = std::get_if<Transform>(&node.content);
     const Affine3 inner = transform ? map * transform->parent_from_child : map;
     return std::all_of(node.children.begin(), node.children.end(),
@@ -161,6 +247,26 @@ class Spanner {
   SpanningBalls spanning_;
 };
 
+double volume_of(const std::vector<Vec3>& points, std::span<const std::size_t> face) {
+  double sum = 0;
+  for (std::size_t i = 2; i < face.size(); ++i) {
+    sum += dot(points[face[0]], cross(points[face[i - 1]], points[face[i]])) / 6;
+  }
+  return sum;
+}
+
+// A mesh is as large as its hull when it is that.
+bool is_convex(const TriangleMesh& mesh) {
+  const ConvexHull hull = convex_hull(mesh.vertices);
+  double hull_volume = 0, volume = 0;
+  for (const auto& face : hull.faces) hull_volume += volume_of(hull.points, face);
+  for (const auto& corners : mesh.triangles) {
+    const std::size_t face[] = {corners[0], corners[1], corners[2]};
+    volume += volume_of(mesh.vertices, face);
+  }
+  return std::fabs(std::fabs(hull_volume) - volume) <= 1e-9 * volume;
+}
+
 }  // namespace
 
 std::optional<std::vector<UnionLeaf>> union_leaves(ModuleEvaluator& evaluator, const Solid& solid, Place at) {
@@ -233,11 +339,10 @@ std::optional<SpanningBalls> spanning_balls(const UnionLeaf& leaf) {
 }
 
 bool is_convex(const UnionLeaf& leaf) {
-  if (const auto extrusion = extrusion_of(leaf)) {
-    const OutlineEdges edges(extrusion->outline), hull(convex_hull(extrusion->outline));
-    return extrusion->outline.loops.size() == 1 && edges.edges().size() == hull.edges().size();
-  }
-  for (const std::string_view kind : {"sphere", "cone", "truncated_cone", "paraboloid", "convex_polyhedron"}) {
+  if (leaf.kind == "prism") return tenon::is_convex(resolve(Shape::of(std::get<Outline>(leaf.values[0]))));
+  if (leaf.kind == "mesh") return is_convex(*std::get<SharedMesh>(leaf.values[0]));
+  for (const std::string_view kind :
+       {"sphere", "cube", "cylinder", "cone", "truncated_cone", "paraboloid", "convex_polyhedron"}) {
     if (leaf.kind == kind) return true;
   }
   return false;

@@ -5,8 +5,10 @@
 #include "lang/flat_outline.h"
 #include "lang/flat_shapes.h"
 #include "lang/hull_of_solids.h"
+#include "lang/minkowski_of_solids.h"
 #include "lang/primitive_arguments.h"
 #include "plane/convex_outline.h"
+#include "plane/minkowski.h"
 #include "plane/offset.h"
 
 namespace tenon::lang {
@@ -41,11 +43,29 @@ std::optional<Solid> hull(ModuleCall& call) {
   return flat_solid(evaluator, convex_hull(outline_of(evaluator, shape, call.at())), call.at());
 }
 
+std::optional<Solid> minkowski(ModuleCall& call) {
+  ModuleEvaluator& evaluator = call.evaluator;
+  Solids parts = evaluator.children(*call.instantiation.children, call.scope);
+  std::erase_if(parts, [](const Solid& part) { return part.is_nothing(); });
+  if (parts.size() < 2) return evaluator.builder().unite(parts);
+  const bool flat = are_flat(parts);
+  std::erase_if(parts, [&](const Solid& part) { return part.flat != flat; });
+  if (!flat) return minkowski_of_solids(evaluator, parts, call.at());
+  Outline sum = outline_of(evaluator, parts.front(), call.at());
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const Result<Outline> next = minkowski_sum(sum, outline_of(evaluator, parts[i], call.at()));
+    if (!next) fail(call.at(), "minkowski(): " + next.error().message);
+    sum = *next;
+  }
+  return flat_solid(evaluator, std::move(sum), call.at());
+}
+
 }  // namespace
 
 void add_outline_modules(BuiltinModuleTable& table, SymbolTable& symbols) {
   table.emplace(symbols.intern("offset"), offset);
   table.emplace(symbols.intern("hull"), hull);
+  table.emplace(symbols.intern("minkowski"), minkowski);
 }
 
 }  // namespace tenon::lang

@@ -35,8 +35,18 @@ void add_samples(const OutlineEdge& edge, std::vector<Sample>& samples) {
   const double angle = 4 * std::atan(edge.bulge);
   // Samples that touch a corner would only be taken for it.
   const int count = std::max(2, static_cast<int>(std::ceil(std::fabs(angle) / step)));
-  for (int i = 1; i < count; ++i) {
-    samples.push_back({circle.center + turned_by(edge.from - circle.center, angle * i / count), circle});
+  const auto add = [&](double part) {
+    samples.push_back({circle.center + turned_by(edge.from - circle.center, angle * part / count), circle});
+  };
+  for (int i = 1; i < count; ++i) add(i);
+  // A tangent that touches the arc next to its end leaves the corner there inside. Within 2⁻²¹ an arc cannot be told
+  // from its tangent by more than rounding.
+  constexpr int halvings = 14;
+  double part = 1;
+  for (int i = 0; i < halvings; ++i) {
+    part /= 2;
+    add(part);
+    add(count - part);
   }
 }
 

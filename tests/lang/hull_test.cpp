@@ -73,6 +73,9 @@ TEST(HullOfSolids, SaysWhatItCannotDo) {
       error_of("hull() { difference() { cube(2); sphere(1); } }").find("1:1: error: hull() of a difference or an"),
       std::string::npos);
   EXPECT_NE(error_of("hull() halfspace();").find("hull() of a"), std::string::npos);
+  // A plate with a hole is an extrusion.
+  EXPECT_EQ(tree_of("hull() difference() { cube([4, 4, 1]); translate([1, 1, -1]) cylinder(h = 3, r = 1); }"),
+            tree_of("hull() cube([4, 4, 1]);"));
   EXPECT_EQ(tree_of("hull(); cube();"), tree_of("cube();"));
 }
 

@@ -1,0 +1,185 @@
+#include "lang/minkowski_of_solids.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lang/convex_parts.h"
+#include "lang/primitive_arguments.h"
+#include "plane/arc_corners.h"
+#include "plane/minkowski.h"
+#include "plane/offset.h"
+#include "plane/shape.h"
+
+namespace tenon::lang {
+
+namespace {
+
+// More pairs than a scene can mean.
+constexpr std::size_t most_pairs = 100'000;
+
+/// A primitive with what it can be taken for.
+struct Summand {
+  UnionLeaf leaf;
+  std::optional<SpanningBalls> balls;  // where it is convex
+
+  bool is_exact() const { return balls && balls->exact; }
+};
+
+std::vector<Summand> summands_of(ModuleEvaluator& evaluator, const Solid& solid, Place at) {
+  const auto leaves = union_leaves(evaluator, solid, at);
+  if (!leaves) {
+    fail(at, "minkowski() of a difference or an intersection of solids is not supported yet; take it of its parts");
+  }
+  std::vector<Summand> summands;
+  for (const UnionLeaf& leaf : *leaves) {
+    summands.push_back({leaf, is_convex(leaf) ? spanning_balls(leaf) : std::nullopt});
+  }
+  return summands;
+}
+
+std::vector<Ball> sums(const std::vector<Ball>& a, const std::vector<Ball>& b) {
+  std::vector<Ball> result;
+  for (const Ball& p : a) {
+    for (const Ball& q : b) result.push_back({p.center + q.center, p.radius + q.radius});
+  }
+  return result;
+}
+
+Affine3 with_translation(Affine3 map, const Vec3& t) {
+  for (int i = 0; i < 3; ++i) map.m[static_cast<std::size_t>(i)][3] = t[i];
+  return map;
+}
+
+// The profile of a solid of revolution on both sides of its axis.
+std::optional<Shape> full_profile(const UnionLeaf& leaf) {
+  if (leaf.kind == "cone") {
+    const double h = std::get<double>(leaf.values[0]), r1 = std::get<double>(leaf.values[1]),
+                 r2 = std::get<double>(leaf.values[2]), low = std::get<bool>(leaf.values[3]) ? -h / 2 : 0;
+    return Shape::of({{{{-r1, low, 0}, {r1, low, 0}, {r2, low + h, 0}, {-r2, low + h, 0}}}});
+  }
+  if (leaf.kind == "cylinder") {
+    const auto extrusion = extrusion_of(leaf);
+    const double r = std::get<double>(leaf.values[1]), low = extrusion->low, high = extrusion->high;
+    return Shape::of({{{{-r, low, 0}, {r, low, 0}, {r, high, 0}, {-r, high, 0}}}});
+  }
+  Outline right;
+  if (leaf.kind == "torus") {
+    const double center = std::get<double>(leaf.values[0]), r = std::get<double>(leaf.values[1]);
+    right = {{full_circle({{center, 0}, r}, 1)}};
+  } else if (leaf.kind == "revolution") {
+    right = std::get<Outline>(leaf.values[0]);
+  } else {
+    return std::nullopt;
+  }
+  Outline left = right;
+  for (auto& loop : left.loops) {
+    for (OutlineCorner& corner : loop) corner = {-corner.x, corner.y, -corner.bulge};
+  }
+  return Shape{Shape::Operation::unite, {}, {Shape::of(right), Shape::of(left)}};
+}
+
+/// The sum of two primitives.
+class PairSum {
+ public:
+  PairSum(ModuleEvaluator& evaluator, Place at) : evaluator_(evaluator), at_(at) {}
+
+  Solid sum(const Summand& a, const Summand& b) {
+    if (a.is_exact() && b.is_exact()) return ball_hull(evaluator_, sums(a.balls->balls, b.balls->balls), at_);
+    if (auto solid = sum_of_extrusions(a.leaf, b.leaf)) return *solid;
+    if (auto solid = sum_with_sphere(a.leaf, b.leaf)) return *solid;
+    if (auto solid = sum_with_sphere(b.leaf, a.leaf)) return *solid;
+    require_convex(a);
+    require_convex(b);
+    if (a.balls->balls.size() * b.balls->balls.size() > most_pairs) {
+      fail(at_, "minkowski() of these round solids would have too many points; give one of them a small $fn");
+    }
+    return ball_hull(evaluator_, sums(a.balls->balls, b.balls->balls), at_);
+  }
+
+ private:
+  void require_convex(const Summand& summand) const {
+    if (summand.balls) return;
+    fail(at_, "minkowski() of a " + std::string(summand.leaf.kind) +
+                  " that is not convex is not supported yet; make it a union of convex parts");
+  }
+
+  std::optional<Solid> sum_of_extrusions(const UnionLeaf& a, const UnionLeaf& b) {
+    const auto first = extrusion_of(a), second = extrusion_of(b);
+    const auto to_frame = a.map.inverse();
+    if (!first || !second || !to_frame) return std::nullopt;
+    // Where their origins lie adds up outside of the frame.
+    const Affine3 turn = with_translation(*to_frame * b.map, {});
+    const auto aligned = aligned_extrusion(*second, turn);
+    if (!aligned) return std::nullopt;
+    const Result<Outline> sum = minkowski_sum(resolve(Shape::of(first->outline)), resolve(Shape::of(aligned->outline)));
+    if (!sum) fail(at_, "minkowski(): " + sum.error().message);
+    return extruded(evaluator_, {*sum, first->low + aligned->low, first->high + aligned->high},
+                    with_translation(a.map, a.map.translation() + b.map.translation()), at_);
+  }
+
+  // A ball rolls around a solid of revolution as a circle around its profile.
+  std::optional<Solid> sum_with_sphere(const UnionLeaf& round, const UnionLeaf& sphere) {
+    const auto profile = full_profile(round);
+    const auto scale = even_scale(round.map), sphere_scale = even_scale(sphere.map);
+    if (!profile || !scale || !sphere_scale || sphere.kind != "sphere") return std::nullopt;
+    const double radius = *sphere_scale * std::get<double>(sphere.values[0]) / *scale;
+    const Outline grown = offset(resolve(*profile), radius, OffsetJoin::round);
+    double reach = 0;
+    for (const auto& loop : grown.loops) {
+      for (const OutlineCorner& c : loop) reach = std::max({reach, std::fabs(c.x), std::fabs(c.y)});
+    }
+    const double far = 4 * reach;
+    const Outline right_side{{{{0, -far, 0}, {far, -far, 0}, {far, far, 0}, {0, far, 0}}}};
+    const Solid solid =
+        add_primitive(evaluator_, at_, "revolution",
+                      {resolve({Shape::Operation::intersect, {}, {Shape::of(grown), Shape::of(right_side)}})});
+    const Affine3 map = with_translation(round.map, round.map.translation() + sphere.map.translation());
+    return map == Affine3{} ? solid : evaluator_.builder().wrap(Transform{map}, {solid});
+  }
+
+  ModuleEvaluator& evaluator_;
+  Place at_;
+};
+
+// Hulls of balls may be added up before they are built.
+std::optional<Solid> sum_of_ball_hulls(ModuleEvaluator& evaluator, const std::vector<std::vector<Summand>>& operands,
+                                       Place at) {
+  std::vector<std::vector<Ball>> parts{{{{0, 0, 0}, 0}}};
+  for (const std::vector<Summand>& operand : operands) {
+    std::vector<std::vector<Ball>> next;
+    for (const std::vector<Ball>& part : parts) {
+      for (const Summand& summand : operand) {
+        if (!summand.is_exact()) return std::nullopt;
+        next.push_back(sums(part, summand.balls->balls));
+      }
+    }
+    if (next.size() > most_pairs) fail(at, "minkowski() of these solids would have more than 100,000 parts");
+    parts = std::move(next);
+  }
+  Solids solids;
+  for (std::vector<Ball>& part : parts) solids.push_back(ball_hull(evaluator, std::move(part), at));
+  return evaluator.builder().unite(solids);
+}
+
+}  // namespace
+
+Solid minkowski_of_solids(ModuleEvaluator& evaluator, const Solids& solids, Place at) {
+  std::vector<std::vector<Summand>> operands;
+  for (const Solid& solid : solids) operands.push_back(summands_of(evaluator, solid, at));
+  if (auto sum = sum_of_ball_hulls(evaluator, operands, at)) return *sum;
+  Solid sum = solids.front();
+  for (std::size_t i = 1; i < solids.size(); ++i) {
+    const std::vector<Summand> summands = i == 1 ? operands[0] : summands_of(evaluator, sum, at);
+    if (summands.size() * operands[i].size() > most_pairs) {
+      fail(at, "minkowski() of these solids would have more than 100,000 parts");
+    }
+    Solids parts;
+    for (const Summand& a : summands) {
+      for (const Summand& b : operands[i]) parts.push_back(PairSum(evaluator, at).sum(a, b));
+    }
+    sum = evaluator.builder().unite(parts);
+  }
+  return sum;
+}
+
+}  // namespace tenon::lang

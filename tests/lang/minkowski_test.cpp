@@ -1,0 +1,76 @@
+// minkowski() of shapes and solids.
+#include "lang/convex_solid.h"
+
+namespace tenon {
+namespace {
+
+std::vector<SpanningBall> box_of_balls(const Vec3& size, double r) {
+  std::vector<SpanningBall> balls;
+  for (int i = 0; i < 8; ++i) {
+    balls.push_back({{i & 1 ? size.x : 0, i & 2 ? size.y : 0, i & 4 ? size.z : 0}, r});
+  }
+  return balls;
+}
+
+TEST(Minkowski, OfPolyhedraAndSpheresIsExact) {
+  Random random(20240619);
+  expect_hull("minkowski() { cube([5, 4, 3]); sphere(1); }", box_of_balls({5, 4, 3}, 1), random, 1e-9);
+  expect_hull("minkowski() { cube([5, 4, 3]); sphere(1); sphere(0.5); cube(1); }", box_of_balls({6, 5, 4}, 1.5), random,
+              1e-9);
+  expect_hull("minkowski() { cube([1, 2, 3]); translate([-1, 0, 0]) cube([2, 1, 1]); translate([1, 0, 0]) cube(1); }",
+              box_of_balls({4, 4, 5}, 0), random, 1e-9);
+  EXPECT_NE(tree_of("minkowski() { sphere(1); sphere(2); }").find("sphere(r = 3)"), std::string::npos);
+}
+
+TEST(Minkowski, OfUnionsIsTheUnionOfSums) {
+  const UnionScene scene("minkowski() { union() { cube(1); translate([10, 0, 0]) cube(1); } sphere(1); }");
+  EXPECT_NEAR(scene.support({1, 0, 0}), 12, 1e-12);
+  // Between the parts there is nothing.
+  EXPECT_EQ(scene.spans({{-5, 0.5, 0.5}, {1, 0, 0}}).size(), 2u);
+}
+
+TEST(Minkowski, OfExtrusionsIsAnExtrusion) {
+  const std::string tree = tree_of("minkowski() { cube([4, 4, 1]); cylinder(h = 1, r = 1); }");
+  EXPECT_EQ(tree.find("prism(outline = [[["), 0u) << tree;
+  EXPECT_NE(tree.find("h = 2, center = false"), std::string::npos) << tree;
+  EXPECT_EQ(tree.find("mesh"), std::string::npos);
+  // One that is not convex, and turned.
+  const UnionScene scene(
+      "rotate([90, 0, 0]) minkowski() { linear_extrude(2) difference() { square(9); translate([3, 3]) square(3); } "
+      "cylinder(h = 1, r = 1, center = true); }");
+  EXPECT_EQ(scene.spans({{4.5, -0.5, -5}, {0, 0, 1}}).size(), 2u);
+  EXPECT_NEAR(scene.support({1, 0, 0}), 10, 1e-9);
+  EXPECT_NEAR(scene.support({0, -1, 0}), 2.5, 1e-9);
+}
+
+TEST(Minkowski, OfARoundSolidAndASphereIsRound) {
+  const std::string tree = tree_of("minkowski() { cylinder(h = 4, r = 2); sphere(1); }");
+  EXPECT_EQ(tree.find("revolution(outline = [[["), 0u) << tree;
+  const UnionScene scene("minkowski() { translate([1, 2, 3]) cylinder(h = 4, r1 = 2, r2 = 3); sphere(1); }");
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 n = normalize(Vec3{std::cos(i), std::sin(i), std::sin(3.0 * i)});
+    const double across = std::hypot(n.x, n.y);
+    const double expected = dot(n, {1, 2, 3}) + std::max(2 * across, 3 * across + 4 * n.z) + 1;
+    EXPECT_NEAR(scene.support(n), expected, 1e-9);
+  }
+}
+
+TEST(Minkowski, OfShapesOfThePlane) {
+  const std::string tree = tree_of("linear_extrude(1) minkowski() { square(4); circle(1); }");
+  EXPECT_NE(tree.find("0.41421356237309"), std::string::npos) << tree;
+  EXPECT_EQ(tree_of("linear_extrude(1) minkowski() { square(4); }"), tree_of("linear_extrude(1) square(4);"));
+  EXPECT_NE(tree_of("linear_extrude(1) minkowski() { circle(4); translate([1, 2]) circle(1); }")
+                .find("[[[1, -3, 1], [1, 7, 1]]]"),
+            std::string::npos);
+}
+
+TEST(Minkowski, SaysWhatItCannotDo) {
+  EXPECT_NE(error_of("minkowski() { difference() { cube(2); sphere(1); } sphere(1); }")
+                .find("1:1: error: minkowski() of a difference or an intersection"),
+            std::string::npos);
+  EXPECT_NE(error_of("minkowski() { torus(3, 1); cube(1); }").find("of a torus that is not convex"), std::string::npos);
+  EXPECT_EQ(tree_of("minkowski(); cube();"), tree_of("cube();"));
+}
+
+}  // namespace
+}  // namespace tenon
