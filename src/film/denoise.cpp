@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "tenon/base/parallel_for.h"
@@ -178,8 +179,11 @@ class Denoiser {
 
     double exponent = 0;
     if (a.depth != b.depth) {
-      // Single precision and a pixel's first sample are no better than a pixel of slope more.
-      const double slope = sigma_depth * (a.slope_x * (dx + 1) + a.slope_y * (dy + 1)) + 1e-6 * std::fabs(a.depth);
+      // A pixel's first sample is no better than a pixel of slope more; and depths are sums of single precision, a few
+      // roundings of which say nothing.
+      constexpr double depth_rounding = 8 * std::numeric_limits<float>::epsilon();
+      const double slope =
+          sigma_depth * (a.slope_x * (dx + 1) + a.slope_y * (dy + 1)) + depth_rounding * std::fabs(a.depth);
       exponent += std::fabs(a.depth - b.depth) / slope;
     }
     const double difference = std::fabs(here - luminance(lit_[there].light));

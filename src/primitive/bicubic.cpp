@@ -158,7 +158,7 @@ std::string Bicubic::find_problem() const {
   if (points.empty()) return "bicubic without control points shows nothing";
   // Beyond these the polygons' mesh has no bits left.
   if (!(largest >= 1e-30 && largest <= 1e30))
-    return "bicubic with coordinates beyond 1e-30 to 1e30 is not computed with";
+    return "bicubic with coordinates of size " + shortest(largest) + "; scale them to between 1e-30 and 1e30";
   if (!(bias > 0) || !std::isfinite(bias)) return "bicubic with bias = " + shortest(bias) + "; it must be above 0";
   if (!(tension >= 0) || !std::isfinite(tension)) {
     return "bicubic with tension = " + shortest(tension) + "; it must be at least 0";

@@ -11,6 +11,7 @@
 
 #include <bit>
 
+#include "accel/cells/block_rays-inl.h"
 #include "accel/cells/single_tracer-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,21 +20,16 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Follows up to 64 rays into one octant. Nodes are opened for all of them at once, by intervals that hold their
-/// origins and directions (Wald et al. 2007, "Ray tracing deformable scenes using dynamic bounding volume hierarchies",
-/// §4.1, frustum culling by interval arithmetic); what is left are the cells that some of them may meet.
+/// origins and directions (Wald et al. 2007, "Ray tracing deformable scenes using dynamic bounding volume hierarchies":
+/// frustum culling by interval arithmetic); what is left are the cells that some of them may meet.
 class BlockTracer {
  public:
-  static constexpr std::size_t most_rays = 64;
+  static constexpr std::size_t most_rays = BlockRays::most_rays;
 
   explicit BlockTracer(const CellTree& cells, double tolerance) : cells_(cells), tolerance_(tolerance) {}
 
   /// Takes the rays; false when they do not make a block.
-  bool Begin(std::span<const RayQuery> queries) {
-    queries_ = queries;
-    count_ = queries.size();
-    padded_ = (count_ + float_lanes - 1) / float_lanes * float_lanes;
-    return LoadRays() && FindStarts();
-  }
+  bool Begin(std::span<const RayQuery> queries) { return rays_.Begin(cells_, queries); }
 
   /// Traces them; `finisher` gives what was found by plain arithmetic its last bits, and traces the rays that are left
   /// when the block is given up.
@@ -42,150 +38,26 @@ class BlockTracer {
     any_will_do_ = finisher.wanted() == Wanted::occlusion;
     const bool pays = Walk();
     if (!pays) GiveUp();
-    TraversalCounters& counters = statistics[queries_[0].kind];
+    TraversalCounters& counters = statistics[rays_.queries[0].kind];
     counters.cells_visited += visited_;
     counters.primitive_tests += tests_;
     std::uint64_t finished = 0;
     if (finisher.wanted() == Wanted::boundary) finished = FinishTogether(answers);
-    for (std::size_t i = 0; i < count_; ++i) {
+    for (std::size_t i = 0; i < rays_.count; ++i) {
       if ((finished >> i & 1) == 0) Answer(i, answers[i], finisher, counters);
     }
     return pays;
   }
 
  private:
-  using D = hn::CappedTag<double, 8>;
+  using D = BlockRays::D;
   using U = hn::RebindToUnsigned<D>;
-  using F = hn::CappedTag<float, 16>;
-  // As many floats as there are doubles in a vector.
-  using HalfF = hn::Rebind<float, D>;
-  static constexpr std::size_t double_lanes = hn::MaxLanes(D());
-  static constexpr std::size_t float_lanes = hn::MaxLanes(F());
+  using F = BlockRays::F;
+  using HalfF = BlockRays::HalfF;
+  static constexpr std::size_t double_lanes = BlockRays::double_lanes, float_lanes = BlockRays::float_lanes;
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
   enum Flag : std::uint8_t { entering = 1, was_inside = 2, group = 4 };
-
-  bool LoadRays() {
-    const RayKind kind = queries_[0].kind;
-    has_from_ = false;
-    for (std::size_t i = 0; i < count_; ++i) {
-      const RayQuery& q = queries_[i];
-      if (q.kind != kind) return false;
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        query_origin_[a][i] = q.ray.origin[axis];
-        direction_[a][i] = q.ray.direction[axis];
-      }
-      end_[i] = q.t_max;
-      has_from_ |= q.from != nullptr;
-    }
-    // Lanes without a ray repeat the last one, and have no length.
-    for (std::size_t i = count_; i < padded_; ++i) {
-      for (std::size_t a = 0; a < 3; ++a) {
-        query_origin_[a][i] = query_origin_[a][count_ - 1];
-        direction_[a][i] = direction_[a][count_ - 1];
-      }
-      end_[i] = -1;
-    }
-    return true;
-  }
-
-  // Where the rays meet the scene's box, what the kernels want to know of them, and the intervals that hold them all.
-  bool FindStarts() {
-    const D d;
-    const HalfF f;
-    const auto zero = hn::Zero(d), most = hn::Set(d, 0x1p100), unit = hn::Set(d, 1.0);
-    for (std::size_t a = 0; a < 3; ++a) {
-      backward_[a] = direction_[a][0] < 0 ? 1 : 0;
-      low_origin_[a] = low_inverse_[a] = std::numeric_limits<float>::infinity();
-      high_origin_[a] = high_inverse_[a] = -std::numeric_limits<float>::infinity();
-    }
-    flat_ = false;
-    HWY_ALIGN double low_share[3][double_lanes], high_share[3][double_lanes];
-    for (std::size_t a = 0; a < 3; ++a) {
-      hn::Store(hn::Set(d, 2.0), d, low_share[a]);
-      hn::Store(hn::Set(d, -2.0), d, high_share[a]);
-    }
-    for (std::size_t i = 0; i < padded_; i += double_lanes) {
-      const hn::Vec<D> o[3] = {hn::Load(d, &query_origin_[0][i]), hn::Load(d, &query_origin_[1][i]),
-                               hn::Load(d, &query_origin_[2][i])};
-      const hn::Vec<D> v[3] = {hn::Load(d, &direction_[0][i]), hn::Load(d, &direction_[1][i]),
-                               hn::Load(d, &direction_[2][i])};
-      const auto square = Dot(Vec3Lanes<D>{v[0], v[1], v[2]}, Vec3Lanes<D>{v[0], v[1], v[2]});
-      const auto farthest = hn::Max(hn::Max(hn::Abs(o[0]), hn::Abs(o[1])), hn::Abs(o[2]));
-      const auto sound = hn::And(hn::Le(farthest, hn::Set(d, cells_.scale.far_origin)),
-                                 hn::And(hn::Ge(square, hn::Set(d, 0x1p-200)), hn::Le(square, hn::Set(d, 0x1p200))));
-      if (!hn::AllTrue(d, sound)) return false;
-      const auto length = hn::Sqrt(square);
-      const auto inverse_length = hn::Div(unit, length);
-      const auto least = hn::Mul(hn::Set(d, cells_.records.least_slope), length);
-      auto near = zero, far = hn::Load(d, &end_[i]);
-      hn::Vec<D> slowness[3];
-      for (std::size_t a = 0; a < 3; ++a) {
-        const bool backward = backward_[a] != 0;
-        const auto forward = hn::Gt(v[a], zero), against = hn::Lt(v[a], zero);
-        // A direction of zero has no side of its own; it is left to single rays.
-        if (!hn::AllTrue(d, backward ? against : forward)) return false;
-        flat_ |= !hn::AllFalse(d, hn::Le(hn::Abs(v[a]), least));
-        slowness[a] = hn::Max(hn::Min(hn::Div(unit, v[a]), most), hn::Neg(most));
-        const double low = cells_.box.lower[static_cast<int>(a)], high = cells_.box.upper[static_cast<int>(a)];
-        near = hn::Max(near, hn::Mul(hn::Sub(hn::Set(d, backward ? high : low), o[a]), slowness[a]));
-        far = hn::Min(far, hn::Mul(hn::Sub(hn::Set(d, backward ? low : high), o[a]), slowness[a]));
-        const auto share = hn::Mul(v[a], inverse_length);
-        hn::Store(hn::Min(hn::Load(d, low_share[a]), share), d, low_share[a]);
-        hn::Store(hn::Max(hn::Load(d, high_share[a]), share), d, high_share[a]);
-      }
-      const auto meets = hn::Le(near, far);
-      const auto start = hn::IfThenElse(meets, near, zero);
-      hn::Store(start, d, &start_[i]);
-      hn::Store(hn::Mul(inverse_length, inverse_length), d, &inverse_square_[i]);
-      hn::Store(length, d, &length_[i]);
-      const auto two_resolutions = hn::Set(d, 2 * cells_.scale.resolution);
-      hn::Store(hn::Mul(two_resolutions, inverse_length), d, &near_[i]);
-      for (std::size_t a = 0; a < 3; ++a) {
-        const auto from = hn::Add(hn::Sub(o[a], hn::Set(d, cells_.center[static_cast<int>(a)])), hn::Mul(start, v[a]));
-        hn::Store(from, d, &origin_[a][i]);
-        hn::Store(slowness[a], d, &slowness_[a][i]);
-        hn::Store(hn::DemoteTo(f, from), f, &box_origin_[a][i]);
-        hn::Store(hn::DemoteTo(f, slowness[a]), f, &box_inverse_[a][i]);
-      }
-      // Rounded up; below zero for rays that do not meet the scene.
-      const auto way = hn::Mul(hn::Sub(far, near), hn::Set(d, 1 + 0x1p-20));
-      const auto shown = hn::IfThenElse(meets, hn::Min(way, most), hn::Set(d, -1.0));
-      hn::Store(hn::DemoteTo(f, shown), f, &box_end_[i]);
-      hn::Store(hn::Set(d, std::numeric_limits<double>::infinity()), d, &best_t_[i]);
-    }
-    for (std::size_t a = 0; a < 3; ++a) {
-      const double least = *std::min_element(low_share[a], low_share[a] + double_lanes);
-      const double greatest = *std::max_element(high_share[a], high_share[a] + double_lanes);
-      if (greatest - least > widest_spread) return false;
-    }
-    return FindIntervals();
-  }
-
-  // Rays further apart than this share few cells: the spread of a component of their directions, at length 1.
-  static constexpr double widest_spread = 0.25;
-
-  bool FindIntervals() {
-    longest_ = -1;
-    bool any = false;
-    for (std::size_t i = 0; i < count_; ++i) {
-      longest_ = std::max(longest_, box_end_[i]);
-      if (box_end_[i] < 0) continue;
-      any = true;
-      for (std::size_t a = 0; a < 3; ++a) {
-        low_origin_[a] = std::min(low_origin_[a], box_origin_[a][i]);
-        high_origin_[a] = std::max(high_origin_[a], box_origin_[a][i]);
-        low_inverse_[a] = std::min(low_inverse_[a], box_inverse_[a][i]);
-        high_inverse_[a] = std::max(high_inverse_[a], box_inverse_[a][i]);
-      }
-    }
-    std::fill_n(found_, padded_, none);
-    unsure_ = 0;
-    visited_ = tests_ = 0;
-    is_missed_ = !any;
-    return true;
-  }
 
   struct Entry {
     std::uint32_t child;
@@ -201,14 +73,14 @@ class BlockTracer {
     for (std::size_t lane = 0; lane < node_width; lane += hn::Lanes(wide)) {
       auto near = hn::Zero(wide), far = hn::Set(wide, longest_);
       for (std::size_t a = 0; a < 3; ++a) {
-        const bool backward = backward_[a] != 0;
-        const auto first = static_cast<std::size_t>(backward_[a]);
-        const auto low = hn::Set(wide, low_inverse_[a]), high = hn::Set(wide, high_inverse_[a]);
+        const bool backward = rays_.backward[a] != 0;
+        const auto first = static_cast<std::size_t>(rays_.backward[a]);
+        const auto low = hn::Set(wide, rays_.low_inverse[a]), high = hn::Set(wide, rays_.high_inverse[a]);
         // The least product is that with the origin nearest behind the plane, and the greatest the other way round.
         const auto in = hn::Sub(hn::Load(wide, node.ends[a][first].data() + lane),
-                                hn::Set(wide, backward ? low_origin_[a] : high_origin_[a]));
+                                hn::Set(wide, backward ? rays_.low_origin[a] : rays_.high_origin[a]));
         const auto out = hn::Sub(hn::Load(wide, node.ends[a][1 - first].data() + lane),
-                                 hn::Set(wide, backward ? high_origin_[a] : low_origin_[a]));
+                                 hn::Set(wide, backward ? rays_.high_origin[a] : rays_.low_origin[a]));
         near = hn::Max(near, hn::Min(hn::Mul(in, low), hn::Mul(in, high)));
         far = hn::Min(far, hn::Max(hn::Mul(out, low), hn::Mul(out, high)));
       }
@@ -225,7 +97,7 @@ class BlockTracer {
       entry.child = node.children[lane].bits;
       entry.key = t_in[lane];
       for (std::size_t a = 0; a < 3; ++a) {
-        const auto side = static_cast<std::size_t>(backward_[a]);
+        const auto side = static_cast<std::size_t>(rays_.backward[a]);
         entry.box[a] = node.ends[a][side][lane];
         entry.box[3 + a] = node.ends[a][1 - side][lane];
       }
@@ -236,13 +108,20 @@ class BlockTracer {
   }
 
   // A step of the block costs about what it costs to bring so many rays one cell further one by one. Rays whose ways
-  // lie apart share few cells, while the block opens all that lie between them.
+  // lie apart share few cells, while the block opens all that lie between them. Both numbers are set by trial on the
+  // bench; they decide who traces a ray, never what comes of it.
   static constexpr std::uint64_t least_rays_a_step = 2;
   static constexpr std::uint64_t steps_of_grace = 48;
 
   // @return false when it was given up, since too few rays share its cells
   bool Walk() {
-    if (is_missed_) return true;
+    const D d;
+    for (std::size_t i = 0; i < rays_.padded; i += double_lanes)
+      hn::Store(hn::Set(d, std::numeric_limits<double>::infinity()), d, &best_t_[i]);
+    std::fill_n(found_, rays_.padded, none);
+    unsure_ = visited_ = tests_ = 0;
+    if (rays_.all_miss) return true;
+    ShortenBlock();
     Entry* const stack = stack_.data();
     Entry* top = stack;
     Open(cells_.nodes.front(), top);
@@ -264,17 +143,17 @@ class BlockTracer {
 
   // What was found so far need not be the first; where any boundary will do, and one was found for certain, it stands.
   void GiveUp() {
-    for (std::size_t i = 0; i < count_; ++i) {
-      const bool is_done = box_end_[i] < 0 && (any_will_do_ || found_[i] == none);
+    for (std::size_t i = 0; i < rays_.count; ++i) {
+      const bool is_done = rays_.box_end[i] < 0 && (any_will_do_ || found_[i] == none);
       if (!is_done) unsure_ |= std::uint64_t{1} << i;
     }
   }
 
   void ShortenBlock() {
     const F f;
-    auto longest = hn::Load(f, box_end_);
-    for (std::size_t i = float_lanes; i < padded_; i += float_lanes)
-      longest = hn::Max(longest, hn::Load(f, box_end_ + i));
+    auto longest = hn::Load(f, rays_.box_end);
+    for (std::size_t i = float_lanes; i < rays_.padded; i += float_lanes)
+      longest = hn::Max(longest, hn::Load(f, rays_.box_end + i));
     longest_ = hn::GetLane(hn::MaxOfLanes(f, longest));
   }
 
@@ -283,10 +162,10 @@ class BlockTracer {
     const F f;
     const HalfF half;
     bool shorter = false;
-    for (std::size_t i = 0; i < padded_; i += float_lanes) {
-      auto near = hn::Zero(f), far = hn::Load(f, box_end_ + i);
+    for (std::size_t i = 0; i < rays_.padded; i += float_lanes) {
+      auto near = hn::Zero(f), far = hn::Load(f, rays_.box_end + i);
       for (std::size_t a = 0; a < 3; ++a) {
-        const auto origin = hn::Load(f, &box_origin_[a][i]), inverse = hn::Load(f, &box_inverse_[a][i]);
+        const auto origin = hn::Load(f, &rays_.box_origin[a][i]), inverse = hn::Load(f, &rays_.box_inverse[a][i]);
         near = hn::Max(near, hn::Mul(hn::Sub(hn::Set(f, entry.box[a]), origin), inverse));
         far = hn::Min(far, hn::Mul(hn::Sub(hn::Set(f, entry.box[3 + a]), origin), inverse));
       }
@@ -313,22 +192,9 @@ class BlockTracer {
     return bits[0];
   }
 
-  SceneRays<D> RaysAt(std::size_t i) const {
-    const D d;
-    SceneRays<D> ray;
-    ray.origin = {hn::Load(d, &origin_[0][i]), hn::Load(d, &origin_[1][i]), hn::Load(d, &origin_[2][i])};
-    ray.direction = {hn::Load(d, &direction_[0][i]), hn::Load(d, &direction_[1][i]), hn::Load(d, &direction_[2][i])};
-    ray.slowness = {hn::Load(d, &slowness_[0][i]), hn::Load(d, &slowness_[1][i]), hn::Load(d, &slowness_[2][i])};
-    ray.inverse_square = hn::Load(d, &inverse_square_[i]);
-    ray.length = hn::Load(d, &length_[i]);
-    ray.near = hn::Load(d, &near_[i]);
-    ray.flat = flat_;
-    return ray;
-  }
-
   bool Drop(std::size_t at, std::uint32_t lanes) {
     unsure_ |= static_cast<std::uint64_t>(lanes) << at;
-    for (; lanes != 0; lanes &= lanes - 1) box_end_[at + static_cast<std::size_t>(std::countr_zero(lanes))] = -1;
+    for (; lanes != 0; lanes &= lanes - 1) rays_.box_end[at + static_cast<std::size_t>(std::countr_zero(lanes))] = -1;
     return true;
   }
 
@@ -338,11 +204,11 @@ class BlockTracer {
     if (cell.general || cell.extended) return Drop(at, Bits(lanes));
     const D d;
     const U u;
-    const SceneRays<D> ray = RaysAt(at);
+    const SceneRays<D> ray = rays_.At(at);
     const auto never = hn::Set(d, std::numeric_limits<double>::infinity());
     const std::uint32_t count = cell.leaf_count;
     tests_ += count * hn::CountTrue(d, lanes);
-    const auto starts = hn::And(lanes, hn::Le(hn::Add(t_in, hn::Load(d, &start_[at])), ray.near));
+    const auto starts = hn::And(lanes, hn::Le(hn::Add(t_in, hn::Load(d, &rays_.start[at])), ray.near));
     const bool any_starts = !hn::AllFalse(d, starts);
     hn::Vec<D> enter[Cell::most_tabled], leave[Cell::most_tabled], next[Cell::most_tabled];
     auto state = hn::Zero(u);
@@ -354,8 +220,8 @@ class BlockTracer {
       unsure = hn::Or(unsure, s.unsure);
       if (any_starts) {
         const auto here = hn::Or(hn::Le(hn::Abs(enter[i]), ray.near), hn::Le(hn::Abs(leave[i]), ray.near));
-        unsure =
-            hn::Or(unsure, has_from_ ? DoubtStarts(cell, i, at, starts, enter[i], leave[i]) : hn::And(starts, here));
+        unsure = hn::Or(unsure,
+                        rays_.has_from ? DoubtStarts(cell, i, at, starts, enter[i], leave[i]) : hn::And(starts, here));
       }
       const auto inside = hn::And(hn::Le(enter[i], t_in), hn::Lt(t_in, leave[i]));
       state = hn::Or(state, hn::IfThenElseZero(hn::RebindMask(u, inside), hn::Set(u, std::uint64_t{1} << i)));
@@ -421,9 +287,9 @@ class BlockTracer {
       const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
       found_[at + lane] = index;
       leaf_[at + lane] = cell.leaves[static_cast<std::size_t>(place_[at + lane])];
-      const double certain = best_t_[at + lane] + start_[at + lane] + 2 * near_[at + lane];
-      const bool is_done = any_will_do_ && certain < end_[at + lane];
-      box_end_[at + lane] = is_done ? -1 : std::min(box_end_[at + lane], ends[lane]);
+      const double certain = best_t_[at + lane] + rays_.start[at + lane] + 2 * rays_.near[at + lane];
+      const bool is_done = any_will_do_ && certain < rays_.end[at + lane];
+      rays_.box_end[at + lane] = is_done ? -1 : std::min(rays_.box_end[at + lane], ends[lane]);
       flags_[at + lane] = static_cast<std::uint8_t>((enter_bits >> lane & 1) | (inside_bits >> lane & 1) << 1 |
                                                     (crowd_bits >> lane & 1) << 2);
     }
@@ -485,9 +351,9 @@ class BlockTracer {
     hn::Store(leave, d, leaves);
     for (std::uint32_t bits = Bits(starts); bits != 0; bits &= bits - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-      if (at + lane >= count_) continue;
-      const bool clear = SingleTracer::ClearStart(queries_[at + lane], cell, place, near_[at + lane], cells_.records,
-                                                  enters[lane], leaves[lane]);
+      if (at + lane >= rays_.count) continue;
+      const bool clear = SingleTracer::ClearStart(rays_.queries[at + lane], cell, place, rays_.near[at + lane],
+                                                  cells_.records, enters[lane], leaves[lane]);
       doubts[lane] = clear ? 0 : 1;
     }
     enter = hn::Load(d, enters);
@@ -499,12 +365,12 @@ class BlockTracer {
   // @return the rays whose answers are complete
   std::uint64_t FinishTogether(std::span<CellAnswer> answers) const {
     std::uint64_t finished = 0;
-    for (std::size_t at = 0; at < count_; at += double_lanes) {
+    for (std::size_t at = 0; at < rays_.count; at += double_lanes) {
       std::uint32_t left = 0;
-      for (std::size_t lane = 0; lane < double_lanes && at + lane < count_; ++lane) {
+      for (std::size_t lane = 0; lane < double_lanes && at + lane < rays_.count; ++lane) {
         const std::size_t i = at + lane;
         const bool simple = found_[i] != none && (unsure_ >> i & 1) == 0 && (flags_[i] & group) == 0;
-        left |= static_cast<std::uint32_t>(simple && queries_[i].from == nullptr) << lane;
+        left |= static_cast<std::uint32_t>(simple && rays_.queries[i].from == nullptr) << lane;
       }
       while (left != 0) {
         const LeafId leaf = leaf_[at + static_cast<std::size_t>(std::countr_zero(left))];
@@ -525,14 +391,15 @@ class BlockTracer {
     if (shape.kind() == ShapeKind::general) return 0;
     const D d;
     RayLanes<D> ray;
-    ray.origin = {hn::Load(d, &query_origin_[0][at]), hn::Load(d, &query_origin_[1][at]),
-                  hn::Load(d, &query_origin_[2][at])};
-    ray.direction = {hn::Load(d, &direction_[0][at]), hn::Load(d, &direction_[1][at]), hn::Load(d, &direction_[2][at])};
+    ray.origin = {hn::Load(d, &rays_.query_origin[0][at]), hn::Load(d, &rays_.query_origin[1][at]),
+                  hn::Load(d, &rays_.query_origin[2][at])};
+    ray.direction = {hn::Load(d, &rays_.direction[0][at]), hn::Load(d, &rays_.direction[1][at]),
+                     hn::Load(d, &rays_.direction[2][at])};
     ray.square = Dot(ray.direction, ray.direction);
     ray.inverse = hn::Div(hn::Set(d, 1.0), ray.square);
-    const auto near = hn::Load(d, &near_[at]);
+    const auto near = hn::Load(d, &rays_.near[at]);
     ray.resolution = hn::Mul(hn::Set(d, 0.5), near);
-    const auto chord = FindChord(d, ray, cells_.shapes, shape, -1, cells_.scale.reach, hn::Load(d, &length_[at]));
+    const auto chord = FindChord(d, ray, cells_.shapes, shape, -1, cells_.scale.reach, hn::Load(d, &rays_.length[at]));
     HWY_ALIGN double t[2][double_lanes];
     HWY_ALIGN double faces[2][double_lanes];
     hn::Store(chord.leave, d, t[0]);
@@ -544,11 +411,11 @@ class BlockTracer {
       const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
       const std::size_t i = at + lane;
       const std::size_t end = flags_[i] & entering;
-      if (!(std::fabs(t[end][lane] - (best_t_[i] + start_[i])) <= near_[i])) continue;
+      if (!(std::fabs(t[end][lane] - (best_t_[i] + rays_.start[i])) <= rays_.near[i])) continue;
       CellAnswer& answer = answers[i];
       answer = CellAnswer{};
       answer.t = t[end][lane];
-      answer.kind = answer.t < queries_[i].t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
+      answer.kind = answer.t < rays_.queries[i].t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
       answer.cell = found_[i];
       answer.surface = {leaf, static_cast<std::uint32_t>(faces[end][lane])};
       answer.leaf_entering = end != 0;
@@ -560,7 +427,7 @@ class BlockTracer {
 
   void Answer(std::size_t i, CellAnswer& answer, SingleTracer& single, TraversalCounters& counters) {
     answer = CellAnswer{};
-    const RayQuery& query = queries_[i];
+    const RayQuery& query = rays_.queries[i];
     if ((unsure_ >> i & 1) != 0) {
       answer = single.Trace(query, counters);
       return;
@@ -568,11 +435,11 @@ class BlockTracer {
     if (found_[i] == none) return;
     const Cell& cell = cells_.cells[found_[i]];
     answer.cell = found_[i];
-    answer.t = best_t_[i] + start_[i];
+    answer.t = best_t_[i] + rays_.start[i];
     answer.surface = {leaf_[i], 0};
     answer.leaf_entering = (flags_[i] & entering) != 0;
     answer.before = (flags_[i] & was_inside) != 0;
-    if (any_will_do_ && answer.t + 2 * near_[i] < end_[i]) {
+    if (any_will_do_ && answer.t + 2 * rays_.near[i] < rays_.end[i]) {
       answer.kind = CellAnswer::Kind::boundary;
       return;
     }
@@ -586,25 +453,9 @@ class BlockTracer {
 
   const CellTree& cells_;
   const double tolerance_;
-  std::span<const RayQuery> queries_;
-  std::size_t count_ = 0, padded_ = 0;
-  std::array<std::size_t, 3> backward_{};
-  bool flat_ = false, is_missed_ = false, has_from_ = false, any_will_do_ = false;
-
-  HWY_ALIGN double origin_[3][most_rays];  // where the ray meets the scene, relative to its centre
-  HWY_ALIGN double query_origin_[3][most_rays];
-  HWY_ALIGN double direction_[3][most_rays];
-  HWY_ALIGN double slowness_[3][most_rays];
-  HWY_ALIGN double inverse_square_[most_rays];
-  HWY_ALIGN double length_[most_rays];
-  HWY_ALIGN double near_[most_rays];
-  HWY_ALIGN double start_[most_rays];
-  HWY_ALIGN double end_[most_rays];
-  HWY_ALIGN float box_origin_[3][most_rays];
-  HWY_ALIGN float box_inverse_[3][most_rays];
-  HWY_ALIGN float box_end_[most_rays];
-  float low_origin_[3] = {}, high_origin_[3] = {}, low_inverse_[3] = {}, high_inverse_[3] = {};
-  float longest_ = -1;
+  BlockRays rays_;
+  bool any_will_do_ = false;
+  float longest_ = -1;  // of what is left of the rays
 
   HWY_ALIGN double best_t_[most_rays];  // counted from the start
   HWY_ALIGN std::uint64_t place_[most_rays];

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "accel/cells/cell.h"
 
@@ -44,6 +45,14 @@ struct CrossingGroup {
       state = ends[k].entering ? state | bit : state & ~bit;
     }
     return state;
+  }
+
+  /// Where the faces cancel: what each of their leaves is crossed by next.
+  void skip(const double* leave, double* next) const {
+    for (std::uint32_t k = 0; k < size; ++k) {
+      const std::uint32_t i = ends[k].place;
+      next[i] = ends[k].entering ? leave[i] : std::numeric_limits<double>::infinity();
+    }
   }
 
   const End& first_change(std::uint64_t table, std::uint32_t after) const {

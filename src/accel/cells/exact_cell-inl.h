@@ -114,11 +114,7 @@ class ExactCell {
       if (!group.collect(count, enter, leave, t, near, together_)) return Outcome::unsure;
       const std::uint32_t after = group.after(state);
       if ((table >> after & 1) == before) {
-        // The faces that coincide cancel.
-        for (std::uint32_t k = 0; k < group.size; ++k) {
-          const std::uint32_t i = group.ends[k].place;
-          next[i] = group.ends[k].entering ? leave[i] : never;
-        }
+        group.skip(leave, next);
         state = after;
         continue;
       }

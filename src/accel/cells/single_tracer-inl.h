@@ -272,11 +272,7 @@ class SingleTracer {
           FinishGroup(cell, answer);
           return Outcome::met;
         }
-        // The faces that coincide cancel.
-        for (std::uint32_t k = 0; k < group.size; ++k) {
-          const std::uint32_t i = group.ends[k].place;
-          next[i] = group.ends[k].entering ? leave[i] : never;
-        }
+        group.skip(leave, next);
         state = after;
         continue;
       }
