@@ -1,5 +1,6 @@
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string_view>
 
@@ -26,7 +27,8 @@ Result<std::string> write_csg(Model model, Console&) {
 }
 
 Result<std::string> write_pov(Model model, Console& console) {
-  const Result<Scene> scene = compile_scene(std::move(model), console.diagnostics());
+  constexpr double spell_out_all = std::numeric_limits<double>::infinity();
+  const Result<Scene> scene = compile_scene(std::move(model), console.diagnostics(), {}, spell_out_all);
   if (!scene) return scene.error();
   return print_pov(*scene, RenderOptions{}.depth);
 }

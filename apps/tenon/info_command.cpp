@@ -39,6 +39,7 @@ std::string figures_json(const SceneFigures& figures, const std::optional<Struct
   json["primitives"] = figures.primitives;
   json["primitives_by_kind"] = Json::object();
   for (const auto& [kind, count] : figures.primitives_by_kind) json["primitives_by_kind"][kind] = count;
+  json["instances"] = figures.instances;
   json["operations"] = figures.operations;
   json["depth"] = figures.depth;
   json["bounds"] = figures.bounds.is_empty()
@@ -89,6 +90,7 @@ std::string figures_text(const SceneFigures& figures, const std::optional<Struct
     const auto& [kind, count] = figures.primitives_by_kind[i];
     text += (i == 0 ? ": " : ", ") + std::to_string(count) + ' ' + kind;
   }
+  if (figures.instances > 0) text += "\ninstances   " + std::to_string(figures.instances);
   text += "\noperations  " + std::to_string(figures.operations);
   text += "\ndepth       " + std::to_string(figures.depth);
   text += "\nbounds      ";

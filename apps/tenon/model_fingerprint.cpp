@@ -1,6 +1,7 @@
 #include "model_fingerprint.h"
 
 #include <span>
+#include <string_view>
 #include <unordered_set>
 #include <variant>
 
@@ -11,7 +12,7 @@ namespace tenon {
 
 std::string model_fingerprint(const Model& model) {
   Fingerprint print;
-  print.add(print_csg(model));
+  print_csg_nodes(model, [&](std::string_view text) { print.add(text); });
   std::unordered_set<const TriangleMesh*> seen;
   for (const SceneNode& node : model.graph.nodes) {
     const auto* leaf = std::get_if<PrimitiveLeaf>(&node.content);

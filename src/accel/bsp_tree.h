@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "accel/enclosures.h"
+#include "csg/enclosures.h"
 #include "tenon/math/box3.h"
 #include "tenon/math/vec3.h"
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "accel/enclosures.h"
 #include "accel/grid_geometry.h"
+#include "csg/enclosures.h"
 
 namespace tenon {
 

@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "accel/all.h"
-#include "accel/enclosures.h"
 #include "accel/nearest_first.h"
 #include "accel/structure.h"
+#include "csg/enclosures.h"
 #include "kdtree/ray_box.h"
 
 namespace tenon {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "accel/enclosures.h"
 #include "accel/operation_tree.h"
+#include "csg/enclosures.h"
 #include "kdtree/kd_tree.h"
 
 namespace tenon {

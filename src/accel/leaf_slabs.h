@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "accel/enclosures.h"
+#include "csg/enclosures.h"
 
 namespace tenon {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "accel/enclosures.h"
+#include "csg/enclosures.h"
 
 namespace tenon {
 

@@ -1,8 +1,8 @@
 #include "accel/all.h"
-#include "accel/enclosures.h"
 #include "accel/kd_options.h"
 #include "accel/operation_marks.h"
 #include "accel/structure.h"
+#include "csg/enclosures.h"
 #include "kdtree/kd_walk.h"
 
 namespace tenon {

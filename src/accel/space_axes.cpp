@@ -1,6 +1,6 @@
 #include "accel/space_axes.h"
 
-#include "accel/enclosures.h"
+#include "csg/enclosures.h"
 #include "csg/minimum_enclosure.h"
 #include "primitive/dispatch.h"
 

@@ -1,6 +1,6 @@
 #include "accel/subdivided_space.h"
 
-#include "accel/enclosures.h"
+#include "csg/enclosures.h"
 
 namespace tenon {
 

@@ -60,8 +60,8 @@ struct Run {
 /// *What shows.* Of the crossings whose interval meets the run's first, those whose bit alone changes the root in the
 /// state before or after all of them; of these the first in tree order.
 ///
-/// *Start.* The ray starts at t = 0. Crossings at or before it give the state there. From there on, changes of the root
-/// whose interval contains 0 are absorbed by the start, up to the first that does not.
+/// *Start.* The ray starts at t = 0, or where start() is told. Crossings at or before it give the state there. From
+/// there on, changes of the root whose interval contains it are absorbed by the start, up to the first that does not.
 ///
 /// *Surfaces.* A surface never flips a bit. It shows where the root would differ between its bit set and cleared.
 ///
@@ -78,7 +78,8 @@ class Classifier {
   State& state() { return state_; }
 
   /// Begins a new ray. The source must know it by now.
-  void start() {
+  /// @param begin  where it starts: 0, or -inf for its whole line
+  void start(double begin = 0) {
     if (++stamp_ == 0) {
       std::fill(revealed_.begin(), revealed_.end(), 0);
       stamp_ = 1;
@@ -90,7 +91,7 @@ class Classifier {
     started_ = false;
     absorbing_ = true;
     run_active_ = false;
-    front_ = 0;
+    front_ = begin_ = begin;
     value_ = evaluate();
   }
 
@@ -110,7 +111,7 @@ class Classifier {
     bool inside = false;
     for (std::uint32_t i = 0; i < spans_.size(); ++i) {
       const Crossing& c = spans_[i];
-      const bool passed = started_ ? c.t < front_ : c.t <= 0;
+      const bool passed = started_ ? c.t < front_ : c.t <= begin_;
       if (passed) {
         if (!c.surface) inside = !inside;
       } else if (c.t < std::numeric_limits<double>::infinity()) {
@@ -150,7 +151,7 @@ class Classifier {
       const bool changes = e.surface ? shows_surface(e.leaf) : (flip(e.leaf), value_ != before);
       trail_.push_back(e);
       if (!changes) continue;
-      if (absorbing_ && e.t - e.bound <= 0) continue;
+      if (absorbing_ && e.t - e.bound <= begin_) continue;
       absorbing_ = false;
       if (run_active_ && e.t - e.bound <= run_high_) {
         run_shows_surface_ |= e.surface;
@@ -389,6 +390,7 @@ class Classifier {
   std::vector<Event> trail_;                 // crossings processed that may still meet a run
   std::vector<LeafId> inside_;               // the leaves that hold the point at the front
   std::vector<std::uint32_t> inside_place_;  // where in inside_ a leaf stands that is there
+  double begin_ = 0;                         // where the ray starts
   double front_ = 0;
   MediumId value_ = medium_outside;
   bool started_ = false;    // settle() was called for this ray

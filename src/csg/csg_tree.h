@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,19 +15,24 @@
 namespace tenon {
 
 using CsgNodeId = Id<struct CsgNode_>;
+using PrototypeId = Id<struct Prototype_>;
+using ColorId = Id<struct Color_>;
+
+class Prototype;
 
 /// A primitive with everything pushed to it: its place in the world and its attributes (Zajíček 2012, §2.2, the
 /// "combined attribute node").
 struct Leaf {
   PrimitiveId primitive;
   Placement placement;
-  Box3 bounds;                ///< of the whole primitive, in the world
-  CsgNodeId node;             ///< where it stands in the tree
-  MaterialId material;        ///< the nearest `material`; none when there is none
-  std::optional<Rgba> color;  ///< the outermost `color`
+  Box3 bounds;          ///< of the whole primitive, in the world
+  CsgNodeId node;       ///< where it stands in the tree
+  MaterialId material;  ///< the nearest `material`; none when there is none
+  ColorId color;        ///< the outermost `color`, in CsgTree::colors; none when there is none
   MediumId medium = medium_opaque;
   double priority = 0;             ///< of its material, where media overlap
   bool shows_what_it_cut = false;  ///< it is subtracted, and its faces show the material of what it was taken from
+  PrototypeId prototype{};         ///< what the primitive is an instance of; none for a primitive of the scene
 };
 
 enum class CsgOperation : std::uint8_t { leaf, union_, intersection, difference, complement };
@@ -48,6 +53,8 @@ struct CsgTree {
   std::vector<CsgNode> nodes;
   std::vector<CsgNodeId> children;
   std::vector<Leaf> leaves;
+  std::vector<Rgba> colors;
+  std::vector<std::shared_ptr<Prototype>> prototypes;
   CsgNodeId root;
   Tolerance tolerance;
   bool has_media = false;  ///< some leaf is transparent: boundaries lie between media, not only at the outside

@@ -1,8 +1,14 @@
 #include "csg/push_attributes.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <unordered_map>
 #include <utility>
 
+#include "csg/prototype.h"
 #include "primitive/dispatch.h"
 
 namespace tenon {
@@ -25,45 +31,47 @@ struct Frame {
   bool changes_attributes = false;
 };
 
+// What was left out on the way.
+struct LeftOut {
+  std::size_t flattened = 0;
+  std::size_t subtracted_surfaces = 0;
+};
+
 class Pusher {
  public:
-  Pusher(SceneGraph graph, Diagnostics& diagnostics) : graph_(std::move(graph)), diagnostics_(diagnostics) {}
+  Pusher(const SceneGraph& graph, const InstancePlan& plan, LeftOut& left_out)
+      : graph_(graph), plan_(plan), left_out_(left_out) {}
 
-  CsgTree run() {
-    attributes_.emplace_back();
-    if (graph_.root) enter(graph_[graph_.root]);
+  /// @param outer  the attributes that the node inherits
+  CsgTree run(SceneNodeId root, const Attributes& outer) {
+    root_ = root;
+    attributes_.push_back(outer);
+    if (root) enter(root);
     while (!frames_.empty()) {
       Frame& frame = frames_.back();
       if (frame.next_child < frame.node->children.size()) {
-        enter(graph_[frame.node->children[frame.next_child++]]);
+        enter(frame.node->children[frame.next_child++]);
       } else {
         leave();
       }
     }
     if (!operands_.empty()) tree_.root = operands_.back();
-    if (flattened_ > 0) {
-      diagnostics_.warn(std::to_string(flattened_) +
-                        " primitives are flattened by their transformations and make no solid; look for a zero scale");
-    }
-    if (subtracted_surfaces_ > 0) {
-      diagnostics_.warn(std::to_string(subtracted_surfaces_) +
-                        " surfaces are subtracted and left out; a surface has no inside that could be taken away");
-    }
     double largest = 0;
     for (const Leaf& leaf : tree_.leaves) {
       if (leaf.bounds.is_bounded()) largest = std::max(largest, leaf.bounds.largest_coordinate());
     }
     tree_.tolerance = Tolerance::of_scene(largest);
-    tree_.primitives = std::move(graph_.primitives);
     return std::move(tree_);
   }
 
  private:
-  void enter(const SceneNode& node) {
+  void enter(SceneNodeId id) {
+    const SceneNode& node = graph_[id];
     if (const auto* leaf = std::get_if<PrimitiveLeaf>(&node.content)) {
-      add_leaf(leaf->primitive);
+      add_leaf(graph_.primitives, leaf->primitive, {});
       return;
     }
+    if (id != root_ && plan_.stores(id) && add_instance(id)) return;
     Frame frame{&node, 0, operands_.size(), false};
     if (!std::holds_alternative<SetOperation>(node.content)) {
       frame.changes_attributes = true;
@@ -149,26 +157,71 @@ class Pusher {
   // What is taken out of a tool leaves its faces where the tool cuts, too.
   bool is_part_of_tool() const { return complements_above() > 0; }
 
-  void add_leaf(PrimitiveId primitive) {
+  // The attributes of an instance go to its leaf, and into the prototype where that has some of its own to combine.
+  bool add_instance(SceneNodeId id) {
     const Attributes& attributes = attributes_.back();
-    const PrimitiveStore& store = graph_.primitives;
+    Attributes outer;
+    outer.cut_faces = attributes.cut_faces;
+    if (plan_.has_materials[id.get()]) {
+      outer.material = attributes.material;
+      outer.color = attributes.color;
+      const bool is_transparent =
+          (outer.material && plan_.is_transparent[outer.material.get()]) || (outer.color && outer.color->a < 1);
+      if (is_transparent) return false;
+    }
+    const Rgba color = outer.color.value_or(Rgba{-1, 0, 0, 0});
+    const Key key{id, outer.material, {color.r, color.g, color.b, color.a}, outer.cut_faces};
+    const auto [known, is_new] = prototypes_.try_emplace(key);
+    if (is_new) {
+      if (auto prototype = Prototype::create(Pusher(graph_, plan_, left_out_).run(id, outer))) {
+        known->second = {tree_.primitives.add_instance(prototype), PrototypeId{tree_.prototypes.size()}};
+        tree_.prototypes.push_back(std::move(prototype));
+      }
+    }
+    const auto [primitive, prototype] = known->second;
+    if (!prototype) return false;
+    add_leaf(tree_.primitives, primitive, prototype);
+    return true;
+  }
+
+  void add_leaf(const PrimitiveStore& store, PrimitiveId primitive, PrototypeId prototype) {
+    const Attributes& attributes = attributes_.back();
     std::optional<Placement> placement = Placement::create(attributes.world_from_local, local_center(store, primitive));
     const CsgNodeId node_id{tree_.nodes.size()};
     CsgNode node;
     operands_.push_back(node_id);
     const bool subtracted_surface = is_surface(store, primitive) && is_subtracted();
     if (!placement || subtracted_surface) {
-      ++(subtracted_surface ? subtracted_surfaces_ : flattened_);
+      ++(subtracted_surface ? left_out_.subtracted_surfaces : left_out_.flattened);
       tree_.nodes.push_back(node);  // a union of nothing
       return;
     }
     node.operation = CsgOperation::leaf;
     node.leaf = LeafId{tree_.leaves.size()};
     tree_.nodes.push_back(node);
-    Leaf leaf{primitive, *placement,          world_bounds(store, primitive, *placement),
-              node_id,   attributes.material, attributes.color};
+    Leaf leaf{prototype ? primitive : own_primitive(primitive),
+              *placement,
+              world_bounds(store, primitive, attributes.world_from_local),
+              node_id,
+              attributes.material,
+              color_id(attributes.color)};
     leaf.shows_what_it_cut = attributes.cut_faces == CutFaces::base && is_part_of_tool();
+    leaf.prototype = prototype;
     tree_.leaves.push_back(leaf);
+  }
+
+  // Neighbours in a scene tend to share their colour.
+  ColorId color_id(const std::optional<Rgba>& color) {
+    if (!color) return {};
+    if (tree_.colors.empty() || tree_.colors.back() != *color) tree_.colors.push_back(*color);
+    return ColorId{tree_.colors.size() - 1};
+  }
+
+  // The tree's copy of a primitive of the graph.
+  PrimitiveId own_primitive(PrimitiveId of_graph) {
+    const auto [known, is_new] = copies_.try_emplace(of_graph);
+    if (is_new) known->second = tree_.primitives.add_copy(graph_.primitives, of_graph);
+    return known->second;
   }
 
   static Vec3 local_center(const PrimitiveStore& store, PrimitiveId primitive) {
@@ -182,20 +235,38 @@ class Pusher {
     return center;
   }
 
-  SceneGraph graph_;
-  Diagnostics& diagnostics_;
+  using Key = std::tuple<SceneNodeId, MaterialId, std::array<double, 4>, CutFaces>;
+  struct Stored {
+    PrimitiveId primitive;
+    PrototypeId prototype;
+  };
+
+  const SceneGraph& graph_;
+  const InstancePlan& plan_;
+  LeftOut& left_out_;
+  SceneNodeId root_;
   CsgTree tree_;
+  std::map<Key, Stored> prototypes_;
+  std::unordered_map<PrimitiveId, PrimitiveId> copies_;
   std::vector<Frame> frames_;
   std::vector<Attributes> attributes_;
   std::vector<CsgNodeId> operands_;
-  std::size_t flattened_ = 0;
-  std::size_t subtracted_surfaces_ = 0;
 };
 
 }  // namespace
 
-CsgTree push_attributes(SceneGraph graph, Diagnostics& diagnostics) {
-  return Pusher(std::move(graph), diagnostics).run();
+CsgTree push_attributes(SceneGraph graph, Diagnostics& diagnostics, const InstancePlan& plan) {
+  LeftOut left_out;
+  CsgTree tree = Pusher(graph, plan, left_out).run(graph.root, {});
+  if (left_out.flattened > 0) {
+    diagnostics.warn(std::to_string(left_out.flattened) +
+                     " primitives are flattened by their transformations and make no solid; look for a zero scale");
+  }
+  if (left_out.subtracted_surfaces > 0) {
+    diagnostics.warn(std::to_string(left_out.subtracted_surfaces) +
+                     " surfaces are subtracted and left out; a surface has no inside that could be taken away");
+  }
+  return tree;
 }
 
 int CsgTree::depth() const {

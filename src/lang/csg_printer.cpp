@@ -20,6 +20,27 @@ class CsgPrinter {
     return std::move(out_);
   }
 
+  void print_nodes(FunctionRef<void(std::string_view)> take) && {
+    print_surroundings();
+    take(out_);
+    const std::vector<SceneNode>& nodes = model_.graph.nodes;
+    std::vector<bool> is_reached(nodes.size());
+    if (model_.graph.root) is_reached[model_.graph.root.get()] = true;
+    // Children come before their parents.
+    for (std::size_t i = nodes.size(); i-- > 0;) {
+      if (!is_reached[i]) continue;
+      out_.clear();
+      std::vector<Visit> path;
+      open(SceneNodeId{i}, 0, path);
+      out_ += std::to_string(i);
+      for (const SceneNodeId child : nodes[i].children) {
+        is_reached[child.get()] = true;
+        out_ += ' ' + std::to_string(child.get());
+      }
+      take(out_);
+    }
+  }
+
  private:
   // Deeper lines are indented no further, or a deep tree's text would grow with the square of its depth.
   static constexpr std::size_t deepest_indent = 32;
@@ -323,6 +344,10 @@ class CsgPrinter {
 
 std::string print_csg(const Model& model) {
   return CsgPrinter(model).print();
+}
+
+void print_csg_nodes(const Model& model, FunctionRef<void(std::string_view)> take) {
+  CsgPrinter(model).print_nodes(take);
 }
 
 }  // namespace tenon

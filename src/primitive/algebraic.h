@@ -41,6 +41,7 @@ class Algebraic {
   /// Faces: AlgebraicSolid::Face.
   void spans(const LocalRay& ray, Spans& out) const { solid_.spans(ray, out); }
   Region classify(const LocalBox& region) const { return solid_.classify(region); }
+  std::uint32_t face_count() const { return 7; }
   Vec3 normal(const Vec3& point, std::uint32_t face) const { return solid_.normal(point, face); }
 
  private:

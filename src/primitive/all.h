@@ -8,6 +8,7 @@
 #include "primitive/cylinder.h"
 #include "primitive/half_space.h"
 #include "primitive/hyperboloid.h"
+#include "primitive/instance.h"
 #include "primitive/mesh.h"
 #include "primitive/paraboloid.h"
 #include "primitive/polygon3d.h"
@@ -28,5 +29,8 @@ struct PrimitiveList {};
 using AllPrimitives =
     PrimitiveList<Sphere, Box, Cylinder, Cone, Torus, Hyperboloid, Paraboloid, HalfSpace, ConvexPolyhedron, Prism,
                   Revolution, TwistedPrism, Mesh, Quadric, TruncatedCone, Algebraic, Polygon3d, Bicubic>;
+
+/// What a store holds beside them, which no scene names: the compiler makes it.
+using MadePrimitives = PrimitiveList<Instance>;
 
 }  // namespace tenon

@@ -47,6 +47,7 @@ struct Box {
     return is_separated_by_box_faces(box, *this) ? Region::outside : Region::straddles;
   }
 
+  std::uint32_t face_count() const { return 6; }
   Vec3 normal(const Vec3&, std::uint32_t face) const { return box_face_normal(face); }
 };
 

@@ -61,6 +61,7 @@ class Cone {
     return is_separated_by_box_faces(box, *this) ? Region::outside : Region::straddles;
   }
 
+  std::uint32_t face_count() const { return 3; }
   Vec3 normal(const Vec3& point, std::uint32_t face) const {
     if (face != RevolvedQuadric::side) return {0, 0, face == RevolvedQuadric::top ? 1.0 : -1.0};
     const Vec3 n = q_.gradient(point);

@@ -58,6 +58,7 @@ class ConvexPolyhedron {
     return is_separated_by_box_faces(box, *this) ? Region::outside : Region::straddles;
   }
 
+  std::uint32_t face_count() const { return static_cast<std::uint32_t>(planes.size()); }
   Vec3 normal(const Vec3&, std::uint32_t face) const { return planes[face].normal; }
 
  private:

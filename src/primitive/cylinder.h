@@ -54,6 +54,7 @@ struct Cylinder {
     return is_separated_by_box_faces(box, *this) ? Region::outside : Region::straddles;
   }
 
+  std::uint32_t face_count() const { return 3; }
   Vec3 normal(const Vec3& point, std::uint32_t face) const {
     return face == side ? Vec3{point.x, point.y, 0} : Vec3{0, 0, face == top ? 1.0 : -1.0};
   }

@@ -26,6 +26,18 @@ double weigh(double a, double extent) {
   return a == 0 ? 0 : std::fabs(a) * extent;
 }
 
+void spans(const PrimitiveStore& store, PrimitiveId id, const Placement::MappedRay& mapped, Spans& out) {
+  const std::size_t begin = out.size();
+  spans(store, id, mapped.ray, out);
+  if (mapped.shift == 0) return;
+  for (std::size_t i = begin; i < out.size(); ++i) {
+    Crossing& c = out[i];
+    if (!std::isfinite(c.t)) continue;
+    c.t += mapped.shift;
+    c.bound = (c.bound + unit_roundoff * std::fabs(c.t)) * (1 + gamma(3));
+  }
+}
+
 }  // namespace
 
 void spans(const PrimitiveStore& store, PrimitiveId id, const LocalRay& ray, Spans& out) {
@@ -35,16 +47,11 @@ void spans(const PrimitiveStore& store, PrimitiveId id, const LocalRay& ray, Spa
 
 void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const Ray& ray, double tolerance,
            int on_face, Spans& out) {
-  const std::size_t begin = out.size();
-  const Placement::MappedRay mapped = placement.to_local(ray, tolerance, on_face);
-  spans(store, id, mapped.ray, out);
-  if (mapped.shift == 0) return;
-  for (std::size_t i = begin; i < out.size(); ++i) {
-    Crossing& c = out[i];
-    if (!std::isfinite(c.t)) continue;
-    c.t += mapped.shift;
-    c.bound = (c.bound + unit_roundoff * std::fabs(c.t)) * (1 + gamma(3));
-  }
+  spans(store, id, placement.to_local(ray, tolerance, on_face), out);
+}
+
+void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const LocalRay& ray, Spans& out) {
+  spans(store, id, placement.to_local(ray), out);
 }
 
 double support(const PrimitiveStore& store, PrimitiveId id, const Vec3& n) {
@@ -62,11 +69,11 @@ Box3 local_bounds(const PrimitiveStore& store, PrimitiveId id) {
   return bounds;
 }
 
-Box3 world_bounds(const PrimitiveStore& store, PrimitiveId id, const Placement& placement) {
-  const Affine3& map = placement.world_from_local();
+Box3 world_bounds(const PrimitiveStore& store, PrimitiveId id, const BoundedAffine3& world_from_local) {
+  const Affine3& map = world_from_local.map;
   const Box3 local = local_bounds(store, id);
   const Vec3 extent = max(abs(local.lower), abs(local.upper));
-  const Vec3 error = placement.world_error(extent);
+  const Vec3 error = world_from_local.point_error(extent);
   Box3 bounds;
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3 row = map.row(axis);
@@ -103,6 +110,13 @@ Region classify(const PrimitiveStore& store, PrimitiveId id, const LocalBox& box
 
 Vec3 normal(const PrimitiveStore& store, PrimitiveId id, const Vec3& point, std::uint32_t face) {
   return visit(store.lists(), id, [&](const auto& primitive) { return primitive.normal(point, face); });
+}
+
+std::optional<std::uint32_t> face_count(const PrimitiveStore& store, PrimitiveId id) {
+  return visit(store.lists(), id, [](const auto& primitive) -> std::optional<std::uint32_t> {
+    if constexpr (requires { primitive.face_count(); }) return primitive.face_count();
+    return std::nullopt;
+  });
 }
 
 bool is_surface(const PrimitiveStore& store, PrimitiveId id) {

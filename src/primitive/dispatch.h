@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "primitive/local_box.h"
 #include "primitive/local_ray.h"
 #include "primitive/placement.h"
@@ -16,6 +19,8 @@ void spans(const PrimitiveStore& store, PrimitiveId id, const LocalRay& ray, Spa
 /// The same for a ray of the world: maps it, and adds the shift to every t.
 void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const Ray& ray, double tolerance,
            int on_face, Spans& out);
+/// The same for a ray of the frame that the placement is in, which may be the local frame of something larger.
+void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const LocalRay& ray, Spans& out);
 
 /// The largest n·p over the primitive's points p, in the local frame; +inf where it is unbounded.
 double support(const PrimitiveStore& store, PrimitiveId id, const Vec3& n);
@@ -24,7 +29,7 @@ double support(const PrimitiveStore& store, PrimitiveId id, const Vec3& n);
 Box3 local_bounds(const PrimitiveStore& store, PrimitiveId id);
 
 /// The smallest box of the world around the placed primitive, never too small: rounding is added outward.
-Box3 world_bounds(const PrimitiveStore& store, PrimitiveId id, const Placement& placement);
+Box3 world_bounds(const PrimitiveStore& store, PrimitiveId id, const BoundedAffine3& world_from_local);
 
 /// The largest n·p over the placed primitive's points p in the world, rounded up; +inf where it is unbounded. The error
 /// of the placement is not in it.
@@ -35,6 +40,9 @@ Region classify(const PrimitiveStore& store, PrimitiveId id, const LocalBox& box
 
 /// Outward normal at a point of the given face, local frame, any length but zero.
 Vec3 normal(const PrimitiveStore& store, PrimitiveId id, const Vec3& point, std::uint32_t face);
+
+/// A number that all its faces' numbers are below; nothing for a primitive whose face numbers hold more than a count.
+std::optional<std::uint32_t> face_count(const PrimitiveStore& store, PrimitiveId id);
 
 /// Whether the primitive is a surface without inside, a probe that never cuts (Crossing::surface).
 bool is_surface(const PrimitiveStore& store, PrimitiveId id);

@@ -59,6 +59,7 @@ struct HalfSpace {
     return extent.least() > d ? Region::outside : Region::straddles;
   }
 
+  std::uint32_t face_count() const { return 1; }
   Vec3 normal(const Vec3&, std::uint32_t) const { return plane_normal; }
 };
 

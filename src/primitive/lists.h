@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "primitive/all.h"
+#include "tenon/base/hash_index.h"
 
 namespace tenon {
 
-template <class List>
+template <class Named, class Made>
 struct VectorsOf;
-template <class... P>
-struct VectorsOf<PrimitiveList<P...>> {
-  using type = std::tuple<std::vector<P>...>;
+template <class... P, class... Q>
+struct VectorsOf<PrimitiveList<P...>, PrimitiveList<Q...>> {
+  using type = std::tuple<std::vector<P>..., std::vector<Q>...>;
 };
 
 /// One vector per kind, and where in them each primitive lies.
@@ -23,8 +24,9 @@ struct PrimitiveStore::Lists {
     std::uint32_t index;
   };
 
-  VectorsOf<AllPrimitives>::type vectors;
+  VectorsOf<AllPrimitives, MadePrimitives>::type vectors;
   std::vector<Place> places;
+  HashIndex by_values;  // of what add() was given
 
   static constexpr std::size_t kind_count = std::tuple_size_v<decltype(vectors)>;
 };

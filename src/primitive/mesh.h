@@ -39,6 +39,7 @@ class Mesh {
   void spans(const LocalRay& ray, Spans& out) const;
   Region classify(const LocalBox& box) const;
   /// Between the corners' normals where the mesh has them.
+  std::uint32_t face_count() const { return static_cast<std::uint32_t>(mesh->triangles.size()); }
   Vec3 normal(const Vec3& point, std::uint32_t face) const;
 
  private:

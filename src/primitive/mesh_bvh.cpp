@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace tenon {
 
@@ -16,16 +18,21 @@ float above(double value) {
   return rounded >= value ? rounded : std::nextafter(rounded, std::numeric_limits<float>::infinity());
 }
 
+std::vector<Box3> boxes_of(const TriangleMesh& mesh) {
+  std::vector<Box3> boxes(mesh.triangles.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (const Vec3& p : mesh.corners(i)) boxes[i] = hull(boxes[i], p);
+  }
+  return boxes;
+}
+
 }  // namespace
 
 class MeshBvh::Builder {
  public:
-  Builder(const TriangleMesh& mesh, MeshBvh& bvh) : bvh_(bvh), boxes_(mesh.triangles.size()) {
-    bvh_.order_.resize(mesh.triangles.size());
-    for (std::size_t i = 0; i < boxes_.size(); ++i) {
-      for (const Vec3& p : mesh.corners(i)) boxes_[i] = hull(boxes_[i], p);
-      bvh_.order_[i] = static_cast<std::uint32_t>(i);
-    }
+  Builder(std::vector<Box3> boxes, MeshBvh& bvh) : bvh_(bvh), boxes_(std::move(boxes)) {
+    bvh_.order_.resize(boxes_.size());
+    std::iota(bvh_.order_.begin(), bvh_.order_.end(), 0);
   }
 
   void build() {
@@ -143,8 +150,10 @@ class MeshBvh::Builder {
   std::vector<Box3> boxes_;
 };
 
-MeshBvh::MeshBvh(const TriangleMesh& mesh) {
-  Builder(mesh, *this).build();
+MeshBvh::MeshBvh(const TriangleMesh& mesh) : MeshBvh(boxes_of(mesh)) {}
+
+MeshBvh::MeshBvh(std::vector<Box3> boxes) {
+  Builder(std::move(boxes), *this).build();
 }
 
 Box3 MeshBvh::box_of(const Node& node, std::size_t i) const {

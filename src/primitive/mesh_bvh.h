@@ -16,6 +16,8 @@ class MeshBvh {
  public:
   MeshBvh() = default;
   explicit MeshBvh(const TriangleMesh& mesh);
+  /// Over any boxes, which then stand for the triangles below.
+  explicit MeshBvh(std::vector<Box3> boxes);
 
   /// Calls visit(triangle) for each triangle whose box the line meets, with all that it may be wrong by.
   template <class Visitor>

@@ -102,6 +102,16 @@ BoundedAffine3 BoundedAffine3::elementary(const Affine3& map) {
   return result;
 }
 
+Vec3 BoundedAffine3::point_error(const Vec3& extent) const {
+  Vec3 bound;
+  for (int i = 0; i < 3; ++i) {
+    const auto& row = error.m[static_cast<std::size_t>(i)];
+    for (int j = 0; j < 3; ++j) bound[i] += weigh(row[static_cast<std::size_t>(j)], extent[j]);
+    bound[i] = (bound[i] + row[3]) * (1 + gamma(6));
+  }
+  return bound;
+}
+
 // |A B - fl(A B)| <= |A| E_B + E_A |B| + E_A E_B + rounding, entry by entry and in the norm; the smaller of the two
 // counts. The rounding is measured, so that exact products stay exact.
 BoundedAffine3 operator*(const BoundedAffine3& a, const BoundedAffine3& b) {
@@ -179,10 +189,7 @@ std::optional<Placement> Placement::create(const BoundedAffine3& world_from_loca
 
   Placement p;
   p.world_from_local_ = w;
-  p.world_from_local_error_ = e;
-  p.local_from_world_ = m;
-  for (auto& row : p.local_from_world_.m) row[3] = 0;
-  p.world_origin_ = w.translation();
+  for (int i = 0; i < 3; ++i) p.local_from_world_[static_cast<std::size_t>(i)] = m.row(i);
   p.world_center_ = w.point(local_center);
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -198,34 +205,37 @@ std::optional<Placement> Placement::create(const BoundedAffine3& world_from_loca
   return p;
 }
 
-Vec3 Placement::world_error(const Vec3& extent) const {
-  Vec3 error;
-  for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    for (int j = 0; j < 3; ++j) {
-      error[i] += weigh(world_from_local_error_.m[k][static_cast<std::size_t>(j)], extent[j]);
-    }
-    error[i] = (error[i] + world_from_local_error_.m[k][3]) * (1 + gamma(6));
-  }
-  return error;
-}
-
 Placement::MappedRay Placement::to_local(const Ray& ray, double tolerance, int on_face) const {
   MappedRay mapped;
   if (on_face < 0) {
     mapped.shift = dot(world_center_ - ray.origin, ray.direction) * (1 / dot(ray.direction, ray.direction));
     if (!std::isfinite(mapped.shift)) mapped.shift = 0;
   }
-  const Vec3 from_world_origin = ray.origin - world_origin_;
+  const Vec3 from_world_origin = ray.origin - world_origin();
   const Vec3 v = from_world_origin + mapped.shift * ray.direction;
 
   LocalRay& local = mapped.ray;
-  local.origin = local_from_world_.direction(v);
-  local.direction = local_from_world_.direction(ray.direction);
+  local.origin = to_local_direction(v);
+  local.direction = to_local_direction(ray.direction);
   local.direction_error = times(relative_error_, abs(ray.direction));
   local.origin_error = constant_error_ + tolerance * row_length_ + times(relative_error_, abs(from_world_origin)) +
                        std::fabs(mapped.shift) * local.direction_error;
   local.on_face = on_face;
+  return mapped;
+}
+
+// At t of the given ray, s + t' with t' of the mapped one, the exact line lies within
+// origin_error + |s + t'| direction_error of it, and the map stretches that by |M| and M's own error.
+Placement::MappedRay Placement::to_local(const LocalRay& ray) const {
+  MappedRay mapped = to_local(Ray{ray.origin, ray.direction}, 0, ray.on_face);
+  const auto stretched = [this](const Vec3& error) {
+    Vec3 local = times(relative_error_, error);
+    for (int i = 0; i < 3; ++i) local[i] += dot(abs(local_from_world_[static_cast<std::size_t>(i)]), error);
+    return local * (1 + gamma(6));
+  };
+  const Vec3 direction_error = stretched(ray.direction_error);
+  mapped.ray.direction_error += direction_error;
+  mapped.ray.origin_error += stretched(ray.origin_error) + std::fabs(mapped.shift) * direction_error;
   return mapped;
 }
 
@@ -235,26 +245,26 @@ Placement::RayErrors Placement::ray_errors(double farthest, double tolerance) co
   const double moved = length(from + abs(world_center_)) * (1 + gamma(8));
   RayErrors errors;
   errors.direction = times(relative_error_, {1, 1, 1});
-  errors.origin = constant_error_ + tolerance * row_length_ + times(relative_error_, from + abs(world_origin_)) +
+  errors.origin = constant_error_ + tolerance * row_length_ + times(relative_error_, from + abs(world_origin())) +
                   moved * errors.direction;
   return errors;
 }
 
 LocalBox Placement::to_local(const Box3& box) const {
-  const Vec3 center = box.center() - world_origin_;
+  const Vec3 center = box.center() - world_origin();
   const Vec3 half = (box.upper - box.lower) * 0.5;
 
   LocalBox local;
-  local.center = local_from_world_.direction(center);
+  local.center = to_local_direction(center);
   Vec3 reach;
   for (int j = 0; j < 3; ++j) {
-    local.half_edges[static_cast<std::size_t>(j)] = local_from_world_.column(j) * half[j];
-    reach += abs(local.half_edges[static_cast<std::size_t>(j)]);
+    Vec3& edge = local.half_edges[static_cast<std::size_t>(j)];
+    edge = Vec3{local_from_world_[0][j], local_from_world_[1][j], local_from_world_[2][j]} * half[j];
+    reach += abs(edge);
   }
   // center ± half deviates from the box's corner by a rounding of each end, two of the halves and one of the offset.
   const Vec3 slip = unit_roundoff * (2 * (abs(box.lower) + abs(box.upper)) + abs(center) + half);
-  const std::array<Vec3, 3> rows{abs(local_from_world_.row(0)), abs(local_from_world_.row(1)),
-                                 abs(local_from_world_.row(2))};
+  const std::array<Vec3, 3> rows{abs(local_from_world_[0]), abs(local_from_world_[1]), abs(local_from_world_[2])};
   // A corner computed from the local centre and half edges takes three more roundings.
   local.error = constant_error_ + times(relative_error_, abs(center) + half) +
                 (times(rows, slip) + gamma(4) * (abs(local.center) + reach)) * (1 + gamma(6));

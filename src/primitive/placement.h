@@ -25,6 +25,11 @@ struct BoundedAffine3 {
   /// a coordinate axis) are exact. A map that sends axes to axes (scaling, mirroring, quarter turns) is exact, and so
   /// is every translation.
   static BoundedAffine3 elementary(const Affine3& map);
+
+  /// Bound on the distance, per axis, between the image of a point under `map` and under the exact map (without the
+  /// rounding of applying it), for points with |p| <= extent component by component. Infinite where an error meets an
+  /// infinite extent.
+  Vec3 point_error(const Vec3& extent) const;
 };
 
 /// First `b`, then `a`, errors included.
@@ -41,19 +46,21 @@ class Placement {
 
   const Affine3& world_from_local() const { return world_from_local_; }
   /// The linear part of the inverse map; its translation is zero, since points are taken relative to world_origin().
-  const Affine3& local_from_world_linear() const { return local_from_world_; }
-  const Vec3& world_origin() const { return world_origin_; }
+  Affine3 local_from_world_linear() const {
+    Affine3 linear;
+    for (std::size_t i = 0; i < 3; ++i) {
+      linear.m[i] = {local_from_world_[i].x, local_from_world_[i].y, local_from_world_[i].z, 0};
+    }
+    return linear;
+  }
+  Vec3 world_origin() const { return world_from_local_.translation(); }
   /// The point that rays are moved near to.
   const Vec3& world_center() const { return world_center_; }
-  /// Bound on the distance, per world axis, between the image of a local point under world_from_local() and under the
-  /// exact map (without the rounding of applying it), for points with |p| <= extent component by component. Infinite
-  /// where an error meets an infinite extent.
-  Vec3 world_error(const Vec3& extent) const;
-
-  Vec3 point_to_local(const Vec3& world) const { return local_from_world_.direction(world - world_origin_); }
+  Vec3 point_to_local(const Vec3& world) const { return to_local_direction(world - world_origin()); }
   /// A normal of the local frame, carried to the world at length 1. A mirrored frame keeps outward normals outward.
   Vec3 normal_to_world(const Vec3& local_normal) const {
-    return normalize(local_from_world_.transposed_direction(local_normal));
+    return normalize(local_from_world_[0] * local_normal.x + local_from_world_[1] * local_normal.y +
+                     local_from_world_[2] * local_normal.z);
   }
 
   struct MappedRay {
@@ -65,6 +72,10 @@ class Placement {
   ///                   added to the error of the origin
   /// @param on_face    the face the ray starts on, or -1
   MappedRay to_local(const Ray& ray, double tolerance, int on_face) const;
+
+  /// The same for a ray of the frame that this placement is in, with the errors that it has already. Where it starts on
+  /// the primitive, its on_face says so.
+  MappedRay to_local(const LocalRay& ray) const;
 
   /// Bounds on the errors that to_local() gives a ray: of its origin, and of its direction for one of length 1.
   /// @param farthest  the ray's origin has no larger coordinate
@@ -81,10 +92,12 @@ class Placement {
   using Bound3 = std::array<Vec3, 3>;
   static Vec3 times(const Bound3& rows, const Vec3& v) { return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; }
 
+  Vec3 to_local_direction(const Vec3& v) const {
+    return {dot(local_from_world_[0], v), dot(local_from_world_[1], v), dot(local_from_world_[2], v)};
+  }
+
   Affine3 world_from_local_;
-  Affine3 world_from_local_error_;
-  Affine3 local_from_world_;
-  Vec3 world_origin_;
+  std::array<Vec3, 3> local_from_world_;  // rows of its linear part
   Vec3 world_center_;
   // The error of a mapped vector v, per local axis: constant_error_ + times(relative_error_, |v|).
   Vec3 constant_error_;

@@ -1,5 +1,6 @@
 #include "tenon/primitive/primitive_store.h"
 
+#include "primitive/field_values.h"
 #include "primitive/lists.h"
 
 namespace tenon {
@@ -18,14 +19,20 @@ PrimitiveKind describe() {
   return kind;
 }
 
-template <class... P>
-std::vector<PrimitiveKind> describe_all(PrimitiveList<P...>) {
-  return {describe<P>()...};
+template <class... P, class... Q>
+std::vector<PrimitiveKind> describe_all(PrimitiveList<P...>, PrimitiveList<Q...>) {
+  return {describe<P>()..., describe<Q>()...};
 }
 
+// Those that a scene may name come first.
 const std::vector<PrimitiveKind>& all_kinds() {
-  static const std::vector<PrimitiveKind> kinds = describe_all(AllPrimitives{});
+  static const std::vector<PrimitiveKind> kinds = describe_all(AllPrimitives{}, MadePrimitives{});
   return kinds;
+}
+
+template <class... P>
+constexpr std::size_t count_of(PrimitiveList<P...>) {
+  return sizeof...(P);
 }
 
 // Sets a member to a value of its own type.
@@ -59,11 +66,11 @@ PrimitiveStore& PrimitiveStore::operator=(PrimitiveStore&&) noexcept = default;
 PrimitiveStore::~PrimitiveStore() = default;
 
 std::span<const PrimitiveKind> PrimitiveStore::kinds() {
-  return all_kinds();
+  return std::span(all_kinds()).first(count_of(AllPrimitives{}));
 }
 
 const PrimitiveKind* PrimitiveStore::find_kind(std::string_view name) {
-  for (const PrimitiveKind& kind : all_kinds()) {
+  for (const PrimitiveKind& kind : kinds()) {
     if (kind.name == name) return &kind;
   }
   return nullptr;
@@ -71,6 +78,11 @@ const PrimitiveKind* PrimitiveStore::find_kind(std::string_view name) {
 
 Result<PrimitiveId> PrimitiveStore::add(const PrimitiveKind& kind, std::span<const FieldValue> values) {
   const auto wanted = static_cast<std::size_t>(&kind - all_kinds().data());
+  const std::uint64_t hash = hash_of(values);
+  const std::optional<std::uint32_t> known = lists_->by_values.find(hash, [&](std::uint32_t i) {
+    return lists_->places[i].kind == wanted && are_equal(this->values(PrimitiveId{i}), values);
+  });
+  if (known) return PrimitiveId{*known};
   std::string problem;
   const auto add_to = [&]<std::size_t K>(std::integral_constant<std::size_t, K>) {
     if (K != wanted) return;
@@ -89,6 +101,25 @@ Result<PrimitiveId> PrimitiveStore::add(const PrimitiveKind& kind, std::span<con
   }
   (std::make_index_sequence<Lists::kind_count>{});
   if (!problem.empty()) return Error{ErrorKind::input, std::move(problem), {}};
+  const auto added = static_cast<std::uint32_t>(lists_->places.size() - 1);
+  lists_->by_values.note(hash, added);
+  return PrimitiveId{added};
+}
+
+PrimitiveId PrimitiveStore::add_instance(std::shared_ptr<const CompositeSolid> solid) {
+  auto& instances = std::get<std::vector<Instance>>(lists_->vectors);
+  lists_->places.push_back(
+      {static_cast<std::uint32_t>(count_of(AllPrimitives{})), static_cast<std::uint32_t>(instances.size())});
+  instances.push_back({std::move(solid)});
+  return PrimitiveId{lists_->places.size() - 1};
+}
+
+PrimitiveId PrimitiveStore::add_copy(const PrimitiveStore& from, PrimitiveId id) {
+  visit(*from.lists_, id, [&](const auto& primitive) {
+    auto& own = std::get<std::vector<std::remove_cvref_t<decltype(primitive)>>>(lists_->vectors);
+    lists_->places.push_back({from.lists_->places[id.get()].kind, static_cast<std::uint32_t>(own.size())});
+    own.push_back(primitive);
+  });
   return PrimitiveId{lists_->places.size() - 1};
 }
 

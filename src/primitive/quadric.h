@@ -37,6 +37,7 @@ class Quadric {
   double support(const Vec3& n) const;
   void spans(const LocalRay& ray, Spans& out) const;
   Region classify(const LocalBox& region) const;
+  std::uint32_t face_count() const { return 7; }
   Vec3 normal(const Vec3& point, std::uint32_t face) const;
 
   /// q along the line, expanded at t: q(t + s) = a s² + 2 b s + c, and what the terms were before they cancelled.

@@ -49,6 +49,7 @@ struct Sphere {
     return is_separated(box, gradient_at_least({1, 1, 1}, {}, box), *this) ? Region::outside : Region::straddles;
   }
 
+  std::uint32_t face_count() const { return 1; }
   Vec3 normal(const Vec3& point, std::uint32_t) const { return point; }
 
  private:

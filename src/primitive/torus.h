@@ -62,6 +62,7 @@ struct Torus {
   Region classify(const LocalBox& box) const;
 
   /// From the nearest point of the circle.
+  std::uint32_t face_count() const { return 1; }
   Vec3 normal(const Vec3& point, std::uint32_t) const {
     const double across = std::sqrt(point.x * point.x + point.y * point.y);
     const double k = across > 0 ? 1 - R / across : 0;

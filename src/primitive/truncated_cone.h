@@ -38,6 +38,7 @@ class TruncatedCone {
   /// Faces: AlgebraicSolid::Face; the box's last two are the caps, its others touch the side.
   void spans(const LocalRay& ray, Spans& out) const;
   Region classify(const LocalBox& box) const;
+  std::uint32_t face_count() const { return 7; }
   Vec3 normal(const Vec3& point, std::uint32_t face) const;
 
  private:

@@ -3,7 +3,9 @@
 #include <map>
 #include <string>
 
+#include "csg/instance_plan.h"
 #include "csg/minimum_enclosure.h"
+#include "csg/prototype.h"
 #include "csg/push_attributes.h"
 #include "scene/choose_camera.h"
 #include "scene/cut_tree.h"
@@ -34,14 +36,22 @@ class MaterialCompiler {
     scene_.default_material.color = default_color;
   }
 
-  void assign(Leaf& leaf) {
-    if (leaf.material || leaf.color) leaf.material = resolve(leaf.material, leaf.color);
+  void assign(CsgTree& tree) {
+    for (Leaf& leaf : tree.leaves) {
+      assign(leaf, leaf.color ? std::optional(tree.colors[leaf.color.get()]) : std::nullopt);
+      tree.has_media |= leaf.medium > medium_opaque;
+    }
+    for (const auto& prototype : tree.prototypes) assign(prototype->tree());
+  }
+
+ private:
+  void assign(Leaf& leaf, const std::optional<Rgba>& color) {
+    if (leaf.material || color) leaf.material = resolve(leaf.material, color);
     const Material& material = scene_.material(leaf.material);
     leaf.priority = material.priority;
     leaf.medium = medium_of(material);
   }
 
- private:
   static std::string key_of(MaterialId material, const std::optional<Rgba>& color) {
     std::string key = material ? std::to_string(material.get()) : "-";
     if (color) {
@@ -117,19 +127,38 @@ Box3 lit_bounds(const CsgTree& tree) {
   return bounds.is_bounded() ? bounds : Box3{{-1, -1, -1}, {1, 1, 1}};
 }
 
+// Counts what a tree spells out, `times` as often.
+void count_parts(const CsgTree& tree, std::size_t times, SceneFigures& figures,
+                 std::map<const PrimitiveKind*, std::size_t>& by_kind) {
+  std::vector<std::size_t> instances(tree.prototypes.size());
+  for (const Leaf& leaf : tree.leaves) {
+    if (leaf.prototype) {
+      instances[leaf.prototype.get()] += times;
+    } else {
+      by_kind[&tree.primitives.kind(leaf.primitive)] += times;
+      figures.primitives += times;
+    }
+  }
+  for (const CsgNode& node : tree.nodes) figures.operations += node.operation != CsgOperation::leaf ? times : 0;
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    figures.instances += instances[i];
+    count_parts(tree.prototypes[i]->tree(), instances[i], figures, by_kind);
+  }
+}
+
 }  // namespace
 
-Result<Scene> compile_scene(Model model, Diagnostics& diagnostics, const ViewRequest& view) {
-  auto tree = std::make_shared<CsgTree>(push_attributes(std::move(model.graph), diagnostics));
+Result<Scene> compile_scene(Model model, Diagnostics& diagnostics, const ViewRequest& view, double most_leaves) {
+  std::vector<bool> is_transparent;
+  for (const Material& material : model.materials) is_transparent.push_back(material.is_transparent());
+  const InstancePlan plan = plan_instances(model.graph, std::move(is_transparent), most_leaves);
+  auto tree = std::make_shared<CsgTree>(push_attributes(std::move(model.graph), diagnostics, plan));
   if (tree->leaves.empty()) {
     return Error{ErrorKind::input, "the scene holds no solid; add one, such as cube(10);", {}};
   }
   Scene scene;
   MaterialCompiler materials(std::move(model.materials), scene);
-  for (Leaf& leaf : tree->leaves) {
-    materials.assign(leaf);
-    tree->has_media |= leaf.medium > medium_opaque;
-  }
+  materials.assign(*tree);
 
   if (view.keeps_light && !model.section.empty()) scene.whole = std::make_shared<CsgTree>(*tree);
   const Result<LeafId> first_plane = cut_tree(*tree, model.section);
@@ -154,13 +183,13 @@ Result<Scene> compile_scene(Model model, Diagnostics& diagnostics, const ViewReq
 SceneFigures scene_figures(const Scene& scene) {
   const CsgTree& tree = *scene.tree;
   SceneFigures figures;
-  figures.primitives = tree.leaves.size();
+  std::map<const PrimitiveKind*, std::size_t> by_kind;
+  count_parts(tree, 1, figures, by_kind);
   for (const PrimitiveKind& kind : PrimitiveStore::kinds()) {
-    const auto count = std::count_if(tree.leaves.begin(), tree.leaves.end(),
-                                     [&](const Leaf& leaf) { return &tree.primitives.kind(leaf.primitive) == &kind; });
-    if (count > 0) figures.primitives_by_kind.emplace_back(kind.name, static_cast<std::size_t>(count));
+    if (const auto count = by_kind.find(&kind); count != by_kind.end()) {
+      figures.primitives_by_kind.emplace_back(kind.name, count->second);
+    }
   }
-  for (const CsgNode& node : tree.nodes) figures.operations += node.operation != CsgOperation::leaf;
   figures.depth = tree.depth();
   figures.bounds = on_tolerance_grid(solid_bounds(tree), tree.tolerance.distance);
   figures.tolerance = tree.tolerance.distance;

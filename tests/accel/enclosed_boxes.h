@@ -1,6 +1,6 @@
 #pragma once
 
-#include "accel/enclosures.h"
+#include "csg/enclosures.h"
 #include "support/random_boxes.h"
 
 namespace tenon::boxes {

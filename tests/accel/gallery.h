@@ -139,6 +139,28 @@ inline CsgTree media_scene(std::uint64_t seed, bool lattice) {
   return tree;
 }
 
+/// Solids that occur often and are stored once: apart, through one another, cut by one another, mirrored, and, in one
+/// another, twice over.
+inline SceneNodeId repeated_node(SceneBuilder& b, std::uint64_t seed) {
+  Draw draw(seed);
+  const SceneNodeId part = random_subtree(draw, b, random_parts(draw, b, 6, 0.8, false));
+  const SceneNodeId plate = b.subtract({b.cube({2, 2, 1}), b.translate({1, 1, 0}, b.cylinder(1, 0.5)),
+                                        b.color({1, 0, 0, 1}, b.translate({0, 0, 0.5}, b.cube({1, 1, 0.5}))),
+                                        b.translate({2, 2, 1}, b.sphere(0.6))});
+  const SceneNodeId stack = b.unite({plate, b.translate({0, 0, 1}, plate), b.translate({2, 0, 0}, plate), part,
+                                     b.translate({1, 1, 2}, b.scale(0.5, part))});
+  std::vector<SceneNodeId> parts;
+  for (int i = 0; i < 6; ++i) parts.push_back(random_place(draw, b, 4, part));
+  for (int i = 0; i < 3; ++i) parts.push_back(b.translate({4.0 * i, 0, 0}, stack));
+  parts.push_back(b.subtract({b.cube({8, 3, 1.5}), b.rotate({0, 0, 30}, plate), b.translate({4, 1, 1}, part)}));
+  return b.unite(parts);
+}
+
+inline CsgTree repeated_scene() {
+  SceneBuilder b;
+  return b.instanced_tree(repeated_node(b, 21));
+}
+
 /// Prisms of outlines with holes and arcs, cut by prisms and cylinders whose caps and walls lie in theirs.
 inline CsgTree outlines_scene() {
   SceneBuilder b;
@@ -277,6 +299,7 @@ inline constexpr Scene scenes[] = {
        return sized_scene(8, 1, {1e5, -3e5, 2e5});
      }},
     {"swarm", swarm_scene},
+    {"repeated", repeated_scene},
     {"scales", scales_scene},
     {"same_place", same_place_scene},
     {"media", [] { return media_scene(9, false); }},

@@ -31,7 +31,7 @@ TEST_P(Placed, CrossingsAgreeWithTheExactMap) {
     const auto placement = Placement::create(chain.map, solid.bounds.center());
     ASSERT_TRUE(placement);
     const exact::Map inverse = chain.truth.inverse();
-    const Box3 bounds = world_bounds(solid.store, solid.id, *placement);
+    const Box3 bounds = world_bounds(solid.store, solid.id, chain.map);
     for (int i = 0; i < 40; ++i) {
       const bool grazing = random.chance(0.3);
       const LocalRay local = grazing ? solid.grazing_ray(random) : solid.ray(random);
@@ -76,7 +76,7 @@ TEST_P(Placed, ClassificationIsNeverWrong) {
     const auto placement = Placement::create(chain.map, solid.bounds.center());
     ASSERT_TRUE(placement);
     const exact::Map inverse = chain.truth.inverse();
-    const Box3 bounds = kind().bounded ? world_bounds(solid.store, solid.id, *placement) : Box3::empty();
+    const Box3 bounds = kind().bounded ? world_bounds(solid.store, solid.id, chain.map) : Box3::empty();
     for (int i = 0; i < 50; ++i) {
       const Vec3 center = placement->world_from_local().point(solid.point(random));
       const Vec3 extent = kind().bounded ? bounds.size() : Vec3{1, 1, 1} * length(center - chain.map.map.translation());
@@ -190,7 +190,7 @@ TEST(WorldBounds, AreTightUnderAffineMaps) {
     return *store.add(*PrimitiveStore::find_kind(kind), values);
   };
   const auto bounds = [&store](PrimitiveId id, const Affine3& map) {
-    return world_bounds(store, id, *Placement::create(BoundedAffine3::elementary(map), {}));
+    return world_bounds(store, id, BoundedAffine3::elementary(map));
   };
   const auto near = [](const Box3& box, const Vec3& lower, const Vec3& upper) {
     for (int i = 0; i < 3; ++i) {

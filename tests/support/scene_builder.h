@@ -57,6 +57,13 @@ class SceneBuilder {
     Diagnostics diagnostics;
     return push_attributes(finish(root), diagnostics);
   }
+  /// With everything that occurs more than once, and can be, stored once.
+  CsgTree instanced_tree(SceneNodeId root) {
+    Diagnostics diagnostics;
+    graph_.root = root;
+    const InstancePlan plan = plan_instances(graph_, std::vector<bool>(16), 0);
+    return push_attributes(std::move(graph_), diagnostics, plan);
+  }
 
  private:
   SceneGraph graph_;

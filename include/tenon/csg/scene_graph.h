@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tenon/base/error.h"
+#include "tenon/base/hash_index.h"
 #include "tenon/base/id.h"
 #include "tenon/math/affine3.h"
 #include "tenon/math/color.h"
@@ -57,17 +58,19 @@ struct SceneNode {
 };
 
 /// The scene as it was modelled. Nodes live in one array, so that no depth of nesting needs a deep call stack; a node's
-/// children come before it in the array.
-struct SceneGraph {
+/// children come before it in the array. What occurs more than once is there once.
+class SceneGraph {
+ public:
   PrimitiveStore primitives;
   std::vector<SceneNode> nodes;
   SceneNodeId root;  ///< none for an empty scene
 
   const SceneNode& operator[](SceneNodeId id) const { return nodes[id.get()]; }
-  SceneNodeId add(SceneNode node) {
-    nodes.push_back(std::move(node));
-    return SceneNodeId{nodes.size() - 1};
-  }
+  /// @return the node, or the one like it that there is: the same to the last bit, with the same children
+  SceneNodeId add(SceneNode node);
+
+ private:
+  HashIndex index_;
 };
 
 }  // namespace tenon

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "tenon/base/diagnostics.h"
 #include "tenon/base/error.h"
+#include "tenon/base/function_ref.h"
 #include "tenon/scene/model.h"
 
 namespace tenon {
@@ -39,5 +41,9 @@ Result<Model> load_model_text(const std::string& text, const std::string& name, 
 
 /// The evaluated tree as text that load_model() reads back to the same model (`tenon convert -o x.csg`).
 std::string print_csg(const Model& model);
+
+/// What print_csg() says around the tree, and then each node that the root reaches, once, with the numbers of its
+/// children: what tells two models apart, and is no longer than the graph is large.
+void print_csg_nodes(const Model& model, FunctionRef<void(std::string_view)> take);
 
 }  // namespace tenon

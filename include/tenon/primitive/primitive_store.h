@@ -31,6 +31,8 @@ struct Plane {
   friend constexpr bool operator==(const Plane&, const Plane&) = default;
 };
 
+class CompositeSolid;
+
 /// Shared by every primitive that is made of it, and never null in one.
 using SharedMesh = std::shared_ptr<const TriangleMesh>;
 
@@ -71,7 +73,7 @@ class PrimitiveStore {
   PrimitiveStore& operator=(PrimitiveStore&&) noexcept;
   ~PrimitiveStore();
 
-  /// Every kind there is, in a fixed order.
+  /// Every kind that a scene may name, in a fixed order.
   static std::span<const PrimitiveKind> kinds();
   /// The kind with this `PrimitiveKind::name`; nullptr when there is none.
   static const PrimitiveKind* find_kind(std::string_view name);
@@ -79,9 +81,16 @@ class PrimitiveStore {
   /// Adds a primitive.
   /// @param kind    an element of kinds()
   /// @param values  one value per field, in the order of `kind.fields`, each of the alternative of its fallback
-  /// @return its id, or an error (without place) that says why these values make no solid: a size that is zero,
+  /// @return its id, the same one for the same values, or an error (without place) that says why these values make no
+  /// solid: a size that is zero,
   ///         negative or not finite
   Result<PrimitiveId> add(const PrimitiveKind& kind, std::span<const FieldValue> values);
+
+  /// Adds a solid made of others, of the kind "instance", which no scene names and which has no fields.
+  PrimitiveId add_instance(std::shared_ptr<const CompositeSolid> solid);
+
+  /// Adds a copy of another store's primitive; what is shared by copies, such as a mesh, stays shared.
+  PrimitiveId add_copy(const PrimitiveStore& from, PrimitiveId id);
 
   std::size_t size() const;
   const PrimitiveKind& kind(PrimitiveId id) const;

@@ -40,14 +40,21 @@ struct Scene {
   const Material& material(MaterialId id) const { return id ? materials[id.get()] : default_material; }
 };
 
+/// Up to this many primitives, a scene that repeats itself is traced as if it did not: that is faster, and takes some
+/// hundred bytes for each.
+inline constexpr double most_spelled_out = 1 << 17;
+
 /// Compiles a model.
-/// @param view  how it is to be looked at
+/// @param view         how it is to be looked at
+/// @param most_leaves  with more primitives than this, subtrees that occur often are stored once
 /// @return the scene, or an error when it holds no solid at all
-Result<Scene> compile_scene(Model model, Diagnostics& diagnostics, const ViewRequest& view = {});
+Result<Scene> compile_scene(Model model, Diagnostics& diagnostics, const ViewRequest& view = {},
+                            double most_leaves = most_spelled_out);
 
 /// What `tenon info` tells about a scene.
 struct SceneFigures {
-  std::size_t primitives = 0;
+  std::size_t primitives = 0;  ///< counted wherever they stand
+  std::size_t instances = 0;   ///< of solids that are stored once
   std::vector<std::pair<std::string, std::size_t>> primitives_by_kind;
   std::size_t operations = 0;
   int depth = 0;         ///< of the CSG tree as modelled; a lone primitive has depth 1

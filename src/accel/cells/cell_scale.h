@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "accel/enclosures.h"
 #include "csg/csg_tree.h"
+#include "csg/enclosures.h"
 
 namespace tenon::cells {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "accel/cells/cell_cost.h"
-#include "accel/enclosures.h"
+#include "csg/enclosures.h"
 #include "primitive/dispatch.h"
 #include "primitive/lists.h"
 

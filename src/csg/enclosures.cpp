@@ -1,4 +1,4 @@
-#include "accel/enclosures.h"
+#include "csg/enclosures.h"
 
 #include <algorithm>
 
