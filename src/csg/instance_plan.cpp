@@ -48,7 +48,8 @@ InstancePlan plan_instances(const SceneGraph& graph, std::vector<bool> is_transp
   std::vector<Content> content;
   content.reserve(graph.nodes.size());
   for (const SceneNode& node : graph.nodes) content.push_back(content_of(graph, node, content, is_transparent));
-  if (content[graph.root.get()].leaves <= most_leaves) return plan;
+  plan.leaves = content[graph.root.get()].leaves;
+  if (plan.leaves <= most_leaves) return plan;
 
   // An instance costs what a few leaves do, and a subtree that is a small part of the whole saves little.
   constexpr double least_leaves = 4, least_share = 1.0 / 16;
@@ -63,6 +64,7 @@ InstancePlan plan_instances(const SceneGraph& graph, std::vector<bool> is_transp
     double within = occurrences[i];
     if (c.is_fit && within >= 2 && c.leaves >= least_leaves && within * c.leaves > least_share * most_leaves) {
       plan.is_prototype[i] = true;
+      plan.leaves -= within * (c.leaves - 1);
       within = c.leaves > most_leaves ? 1 : 0;
     }
     if (within == 0) continue;

@@ -12,6 +12,7 @@ struct InstancePlan {
   std::vector<bool> is_prototype;    ///< by SceneNodeId; empty: none
   std::vector<bool> has_materials;   ///< by SceneNodeId: below it stand colours or materials
   std::vector<bool> is_transparent;  ///< by MaterialId
+  double leaves = 0;                 ///< of the tree, instances among them, if all are as planned
 
   bool stores(SceneNodeId node) const { return !is_prototype.empty() && is_prototype[node.get()]; }
 };

@@ -46,6 +46,8 @@ class Pusher {
   CsgTree run(SceneNodeId root, const Attributes& outer) {
     root_ = root;
     attributes_.push_back(outer);
+    // Growing step by step would take twice the memory at the end.
+    if (root == graph_.root) tree_.leaves.reserve(static_cast<std::size_t>(std::min(plan_.leaves, most_reserved)));
     if (root) enter(root);
     while (!frames_.empty()) {
       Frame& frame = frames_.back();
@@ -65,6 +67,8 @@ class Pusher {
   }
 
  private:
+  static constexpr double most_reserved = 1 << 24;
+
   void enter(SceneNodeId id) {
     const SceneNode& node = graph_[id];
     if (const auto* leaf = std::get_if<PrimitiveLeaf>(&node.content)) {
