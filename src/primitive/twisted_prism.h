@@ -48,6 +48,7 @@ class TwistedPrism {
   double support(const Vec3& n) const;
   void spans(const LocalRay& ray, Spans& out) const;
   Region classify(const LocalBox& box) const;
+  std::uint32_t face_count() const { return walls + 2 * static_cast<std::uint32_t>(edges_.edges().size()); }
   Vec3 normal(const Vec3& point, std::uint32_t face) const;
 
  private:

@@ -182,6 +182,7 @@ TEST_P(Battery, NormalsAreGradients) {
     Spans out;
     spans(solid.store, solid.id, ray, out);
     for (const Crossing& c : out) {
+      EXPECT_LT(c.face, face_count(solid.store, solid.id).value_or(Crossing{}.face - 1)) << describe(solid.values);
       if (!std::isfinite(c.t)) continue;
       const Vec3 p = ray.origin + c.t * ray.direction;
       const Vec3 g = definition.gradient(Vec<Quad>(p), c.face, Quad(solid.size) * 0x1p-40).rounded();
