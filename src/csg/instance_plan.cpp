@@ -40,6 +40,22 @@ Content content_of(const SceneGraph& graph, const SceneNode& node, const std::ve
   return content;
 }
 
+// Of the tree that takes prototypes for leaves.
+double count_leaves(const SceneGraph& graph, const std::vector<bool>& is_prototype) {
+  double leaves = 0;
+  std::vector<double> occurrences(graph.nodes.size());
+  occurrences[graph.root.get()] = 1;
+  for (std::size_t i = graph.root.get() + std::size_t{1}; i-- > 0;) {
+    const bool is_leaf = is_prototype[i] || std::holds_alternative<PrimitiveLeaf>(graph.nodes[i].content);
+    if (is_leaf) {
+      leaves += occurrences[i];
+    } else {
+      for (const SceneNodeId child : graph.nodes[i].children) occurrences[child.get()] += occurrences[i];
+    }
+  }
+  return leaves;
+}
+
 }  // namespace
 
 InstancePlan plan_instances(const SceneGraph& graph, std::vector<bool> is_transparent, double most_leaves) {
@@ -64,12 +80,12 @@ InstancePlan plan_instances(const SceneGraph& graph, std::vector<bool> is_transp
     double within = occurrences[i];
     if (c.is_fit && within >= 2 && c.leaves >= least_leaves && within * c.leaves > least_share * most_leaves) {
       plan.is_prototype[i] = true;
-      plan.leaves -= within * (c.leaves - 1);
       within = c.leaves > most_leaves ? 1 : 0;
     }
     if (within == 0) continue;
     for (const SceneNodeId child : graph.nodes[i].children) occurrences[child.get()] += within;
   }
+  plan.leaves = count_leaves(graph, plan.is_prototype);
   return plan;
 }
 

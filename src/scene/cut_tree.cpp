@@ -36,7 +36,8 @@ class NodeWriter {
     node.operation = CsgOperation::leaf;
     node.leaf = LeafId{tree_.leaves.size()};
     tree_.nodes.push_back(node);
-    tree_.leaves.push_back({primitive, placement, world_bounds(tree_.primitives, primitive, BoundedAffine3{}), id, {}, {}});
+    tree_.leaves.push_back(
+        {primitive, placement, world_bounds(tree_.primitives, primitive, BoundedAffine3{}), id, {}, {}});
     return id;
   }
 

@@ -104,7 +104,7 @@ inline CsgTree swarm_scene() {
 
 /// Sizes of all orders of magnitude, in one another.
 inline CsgTree scales_scene() {
-  Draw draw(15);
+  Draw draw(115);
   SceneBuilder b;
   std::vector<SceneNodeId> parts;
   for (double s = 1e-5; s < 1e3; s *= 3) {
