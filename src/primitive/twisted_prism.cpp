@@ -62,7 +62,31 @@ void TwistedPrism::spans(const LocalRay& ray, Spans& out) const {
     return find_place(ray.origin + t * ray.direction, place) && edges_.contains(place);
   };
   const bool inside = find_boundary_crossings(crossings, part, is_inside, boundary);
+  const std::size_t first = out.size();
   emit_between_caps(slab, boundary, inside, walls, out);
+  if (scale_x == 0 || scale_y == 0) drop_chords_beyond_tip(ray, first, out);
+}
+
+// Where the outline has shrunk to a line or a point, every point of the plane satisfies the equations of its edges. A
+// chord there is one of the solid only if it is no farther out than the outline reaches.
+void TwistedPrism::drop_chords_beyond_tip(const LocalRay& ray, std::size_t first, Spans& out) const {
+  const double reach = length(edges_.reach());
+  const auto is_beyond = [&](const Crossing& c) {
+    const Vec3 p = abs(ray.origin + c.t * ray.direction);
+    const Vec3 error = ray.origin_error + std::fabs(c.t) * ray.direction_error + c.bound * abs(ray.direction) +
+                       gamma(4) * (p + abs(ray.origin));
+    const double rest = std::max(0.0, high() - (ray.origin.z + c.t * ray.direction.z) + error.z) / h;
+    const auto reaches = [&](double scale) { return reach * std::min(1.0, scale + rest * std::fabs(1 - scale)); };
+    return p.x - error.x > reaches(scale_x) * std::max(1.0, scale_x) * (1 + gamma(8)) ||
+           p.y - error.y > reaches(scale_y) * std::max(1.0, scale_y) * (1 + gamma(8));
+  };
+  std::size_t kept = first;
+  for (std::size_t i = first; i + 1 < out.size(); i += 2) {
+    if (is_beyond(out[i]) && is_beyond(out[i + 1])) continue;
+    out[kept++] = out[i];
+    out[kept++] = out[i + 1];
+  }
+  out.resize(kept);
 }
 
 double TwistedPrism::support(const Vec3& n) const {

@@ -54,13 +54,14 @@ class TwistedPrism {
  private:
   /// What is known of the parts of a box looked at so far.
   struct BoxSearch {
-    int parts_left = 256;
+    int parts_left = 320;
     bool is_inside_somewhere = false, is_outside_somewhere = false;
   };
 
   Region classify(const Box3& bounds) const;
   Region classify_parts(const Vec3& middle, const std::array<Vec3, 3>& half_edges, const Vec3& error, int halvings,
                         BoxSearch& search) const;
+  void drop_chords_beyond_tip(const LocalRay& ray, std::size_t first, Spans& out) const;
   bool find_place(const Vec3& p, Vec2& place) const;
   bool contains(const Vec3& p) const;
   double largest_scale() const { return std::max({1.0, scale_x, scale_y}); }
