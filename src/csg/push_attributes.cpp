@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -36,6 +37,10 @@ struct LeftOut {
   std::size_t flattened = 0;
   std::size_t subtracted_surfaces = 0;
 };
+
+std::string count(std::size_t n, const char* one, const char* many) {
+  return std::to_string(n) + ' ' + (n == 1 ? one : many);
+}
 
 class Pusher {
  public:
@@ -263,12 +268,13 @@ CsgTree push_attributes(SceneGraph graph, Diagnostics& diagnostics, const Instan
   LeftOut left_out;
   CsgTree tree = Pusher(graph, plan, left_out).run(graph.root, {});
   if (left_out.flattened > 0) {
-    diagnostics.warn(std::to_string(left_out.flattened) +
-                     " primitives are flattened by their transformations and make no solid; look for a zero scale");
+    diagnostics.warn(count(left_out.flattened, "primitive is flattened by its transformations and makes",
+                           "primitives are flattened by their transformations and make") +
+                     " no solid; look for a zero scale");
   }
   if (left_out.subtracted_surfaces > 0) {
-    diagnostics.warn(std::to_string(left_out.subtracted_surfaces) +
-                     " surfaces are subtracted and left out; a surface has no inside that could be taken away");
+    diagnostics.warn(count(left_out.subtracted_surfaces, "surface is", "surfaces are") +
+                     " subtracted and left out; a surface has no inside that could be taken away");
   }
   return tree;
 }

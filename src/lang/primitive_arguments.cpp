@@ -15,9 +15,11 @@ void warn_of_children(ModuleCall& call) {
 
 Solid add_primitive(ModuleEvaluator& evaluator, Place at, std::string_view kind,
                     const std::vector<FieldValue>& values) {
-  const Result<PrimitiveId> made =
-      evaluator.builder().model().graph.primitives.add(*PrimitiveStore::find_kind(kind), values);
+  const PrimitiveKind& of_kind = *PrimitiveStore::find_kind(kind);
+  const Result<PrimitiveId> made = evaluator.builder().model().graph.primitives.add(of_kind, values);
   if (made) return evaluator.builder().leaf(*made);
+  // A solid of no volume is nothing, as in OpenSCAD; a surface that is none is a mistake.
+  if (of_kind.surface) fail(at, made.error().message);
   evaluator.environment().warn(at, made.error().message);
   return Solid::nothing();
 }

@@ -49,7 +49,7 @@ TEST(PushAttributes, LeavesOutSurfacesThatAreSubtracted) {
     CsgTree tree = push_attributes(once.finish(once.subtract({once.sphere(1), surface(once)})), diagnostics);
     EXPECT_EQ(tree.leaves.size(), 1u);
     ASSERT_EQ(diagnostics.warnings().size(), 1u);
-    EXPECT_NE(diagnostics.warnings()[0].find("1 surfaces are subtracted"), std::string::npos);
+    EXPECT_NE(diagnostics.warnings()[0].find("1 surface is subtracted"), std::string::npos);
 
     const SceneNodeId inner = twice.subtract({twice.sphere(2), surface(twice)});
     Diagnostics none;

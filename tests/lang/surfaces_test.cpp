@@ -78,7 +78,7 @@ TEST(Polynomials, WhatIsNoneIsSaidSo) {
       mentions(error_of("algebraic(isolation = \"sturm\");"), "'isolation' must be \"interval\" or \"collins\""));
   EXPECT_TRUE(mentions(error_of("algebraic(box = [1, 2, 3]);"), "two corners"));
   EXPECT_TRUE(mentions(error_of("quadric([1, 2, 3]);"), "ten numbers"));
-  EXPECT_TRUE(mentions(warnings_of("polygon3d([[0, 0, 0], [1, 0, 0], [1, 1, 1], [0, 1, 0]]); cube(1);"), "not planar"));
+  EXPECT_TRUE(mentions(error_of("polygon3d([[0, 0, 0], [1, 0, 0], [1, 1, 1], [0, 1, 0]]); cube(1);"), "not planar"));
   EXPECT_TRUE(mentions(error_of("bicubic([[1, 2], [3, 4]]);"), "net of control points"));
 }
 
