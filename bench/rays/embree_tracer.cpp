@@ -146,7 +146,8 @@ class PacketTracer final : public Tracer {
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(const TriangleMesh& mesh) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
+EmbreeScene::EmbreeScene(const TriangleMesh& mesh, bool filters)
+    : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                3 * sizeof(float), mesh.vertices.size() / 3));
@@ -154,7 +155,7 @@ EmbreeScene::EmbreeScene(const TriangleMesh& mesh) : device_(rtcNewDevice(nullpt
   auto* indices = static_cast<unsigned*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.size()));
   std::copy(mesh.triangles.begin(), mesh.triangles.end(), indices);
-  build(geometry);
+  build(geometry, filters);
 }
 
 EmbreeScene::EmbreeScene(const std::vector<Ball>& balls)
@@ -165,13 +166,14 @@ EmbreeScene::EmbreeScene(const std::vector<Ball>& balls)
   for (const Ball& ball : balls) {
     for (const double v : {ball.center.x, ball.center.y, ball.center.z, ball.radius}) *vertices++ = as_float(v);
   }
-  build(geometry);
+  build(geometry, false);
 }
 
-void EmbreeScene::build(RTCGeometry geometry) {
+void EmbreeScene::build(RTCGeometry geometry, bool filters) {
   build_seconds_ = cpu_seconds([&] {
     rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
-    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    const RTCSceneFlags filter = filters ? RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION : RTC_SCENE_FLAG_NONE;
+    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST | filter);
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);

@@ -27,7 +27,8 @@ struct Ball {
 /// shared edge).
 class EmbreeScene {
  public:
-  explicit EmbreeScene(const TriangleMesh& mesh);
+  /// @param filters  whether queries may bring a filter of their own, which takes a little time
+  explicit EmbreeScene(const TriangleMesh& mesh, bool filters = false);
   explicit EmbreeScene(const std::vector<Ball>& balls);
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -38,7 +39,7 @@ class EmbreeScene {
   double build_seconds() const { return build_seconds_; }
 
  private:
-  void build(RTCGeometry geometry);
+  void build(RTCGeometry geometry, bool filters);
 
   RTCDevice device_;
   RTCScene scene_;

@@ -116,8 +116,9 @@ Status race(const PartOptions& options, Report& report) {
     own.push_back({std::move(*scene), std::move(*accelerator)});
   }
   const CsgTree& tree = *own[0].scene.scene.tree;
-  const EmbreeScene embree(
-      as_embree_takes_it(*std::get<SharedMesh>(tree.primitives.values(tree.leaves[0].primitive)[0])));
+  const TriangleMesh mesh =
+      as_embree_takes_it(*std::get<SharedMesh>(tree.primitives.values(tree.leaves[0].primitive)[0]));
+  const EmbreeScene embree(mesh), filtered(mesh, true);
 
   const std::vector<RaySet> sets = make_ray_sets(own[0].scene, *own[0].accelerator, 1e-4);
   const auto compete = [&](const std::string& label, const RaySet& set,
@@ -137,7 +138,7 @@ Status race(const PartOptions& options, Report& report) {
     std::vector<std::unique_ptr<Tracer>> all;
     all.push_back(std::make_unique<AllCrossings>("tenon bvh", nullptr, own[0].accelerator.get()));
     all.push_back(std::make_unique<AllCrossings>("tenon kd", nullptr, own[1].accelerator.get()));
-    all.push_back(std::make_unique<AllCrossings>("embree 1", &embree, nullptr));
+    all.push_back(std::make_unique<AllCrossings>("embree 1", &filtered, nullptr));
     compete("all of " + std::string(set.name()), set, all);
     for (const auto& tracer : all) {
       report.figure(name, "crossings of " + std::string(set.name()) + " rays, " + tracer->name(),
