@@ -7,6 +7,7 @@
 #include "lang/hull_of_solids.h"
 #include "lang/minkowski_of_solids.h"
 #include "lang/primitive_arguments.h"
+#include "lang/projection.h"
 #include "plane/convex_outline.h"
 #include "plane/minkowski.h"
 #include "plane/offset.h"
@@ -60,12 +61,30 @@ std::optional<Solid> minkowski(ModuleCall& call) {
   return flat_solid(evaluator, std::move(sum), call.at());
 }
 
+std::optional<Solid> projection(ModuleCall& call) {
+  constexpr std::string_view names[] = {"cut", "convexity"};
+  const ModuleArguments arguments(call, names, UnknownArgument::warn);
+  ModuleEvaluator& evaluator = call.evaluator;
+  const Solid solid = evaluator.builder().unite(evaluator.children(*call.instantiation.children, call.scope));
+  if (solid.is_nothing()) return solid;
+  if (solid.is_everything()) fail(call.at(), "projection() of a solid without end is not supported");
+  if (solid.flat) {
+    evaluator.environment().warn(call.at(),
+                                 "projection() takes solids, and its children are shapes of the plane; it makes "
+                                 "nothing");
+    return Solid::nothing();
+  }
+  const bool* cut = arguments[0].boolean();
+  return cut && *cut ? cut_projection(evaluator, solid, call.at()) : shadow_projection(evaluator, solid, call.at());
+}
+
 }  // namespace
 
 void add_outline_modules(BuiltinModuleTable& table, SymbolTable& symbols) {
   table.emplace(symbols.intern("offset"), offset);
   table.emplace(symbols.intern("hull"), hull);
   table.emplace(symbols.intern("minkowski"), minkowski);
+  table.emplace(symbols.intern("projection"), projection);
 }
 
 }  // namespace tenon::lang

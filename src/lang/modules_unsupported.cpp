@@ -12,7 +12,7 @@ std::optional<Solid> not_supported(ModuleCall& call) {
 }  // namespace
 
 void add_unsupported_modules(BuiltinModuleTable& table, SymbolTable& symbols) {
-  for (const char* name : {"projection", "fill", "roof"}) {
+  for (const char* name : {"fill", "roof"}) {
     table.emplace(symbols.intern(name), not_supported);
   }
 }

@@ -20,7 +20,7 @@ allowed() {
     scene) echo "accel csg primitive math base" ;;
     film) echo "image math base" ;;
     render) echo "film image scene accel csg primitive math base" ;;
-    lang) echo "scene csg mesh drawing text plane primitive math base" ;;
+    lang) echo "scene accel csg mesh drawing text plane primitive math base" ;;
     image) echo "math base" ;;
     exchange) echo "render film image scene accel csg primitive math base" ;;
     *) echo "?" ;;

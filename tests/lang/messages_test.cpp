@@ -39,7 +39,7 @@ TEST(Messages, OfAssertions) {
 }
 
 TEST(Messages, WhatIsNotBuiltYetIsAnError) {
-  for (const char* name : {"projection", "roof"}) {
+  for (const char* name : {"fill", "roof"}) {
     const std::string expected = "scene.scad:1:1: error: " + std::string(name) + "() is not supported yet";
     EXPECT_NE(error_of(std::string(name) + "() cube();").find(expected), std::string::npos);
   }

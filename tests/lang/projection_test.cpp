@@ -1,0 +1,99 @@
+// projection() of solids, against what is known of them.
+#include "lang/language.h"
+#include "primitive/arc.h"
+#include "primitive/outline_edges.h"
+
+namespace tenon {
+namespace {
+
+// The outline that a scene of one prism has.
+Outline outline_of(const std::string& text) {
+  const Outcome outcome = evaluate("linear_extrude(1) " + text);
+  EXPECT_TRUE(outcome.model.ok()) << (outcome.model ? "" : format_error(outcome.model.error()));
+  if (!outcome.model) return {};
+  const SceneGraph& graph = outcome.model->graph;
+  for (std::size_t i = graph.nodes.size(); i-- > 0;) {
+    const auto* leaf = std::get_if<PrimitiveLeaf>(&graph.nodes[i].content);
+    if (leaf && graph.primitives.kind(leaf->primitive).name == "prism") {
+      return std::get<Outline>(graph.primitives.values(leaf->primitive)[0]);
+    }
+  }
+  return {};
+}
+
+double area_of(const Outline& outline) {
+  double sum = 0;
+  for (const auto& loop : outline.loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const OutlineCorner &a = loop[i], &b = loop[(i + 1) % loop.size()];
+      sum += 0.5 * (a.x * b.y - a.y * b.x);
+      if (a.bulge == 0) continue;
+      const double r = circle_of_arc({a.x, a.y}, {b.x, b.y}, a.bulge).radius, angle = 4 * std::atan(a.bulge);
+      sum += 0.5 * r * r * (angle - std::sin(angle));
+    }
+  }
+  return sum;
+}
+
+constexpr double pi = 3.14159265358979323846;
+
+TEST(CutProjection, IsExactOfSpheresPolyhedraAndExtrusions) {
+  EXPECT_NEAR(area_of(outline_of("projection(cut = true) translate([0, 0, 3]) sphere(5);")), 16 * pi, 1e-9);
+  EXPECT_NEAR(area_of(outline_of("projection(cut = true) scale([1, 2, 3]) rotate([20, 30, 40]) sphere(1);")), 2 * pi,
+              1e-5);
+  // The diagonal cut of a cube is a hexagon.
+  EXPECT_NEAR(
+      area_of(outline_of(
+          "projection(cut = true) rotate([0, 54.735610317245346, 0]) rotate([0, 0, 45]) cube(2, center = true);")),
+      3 * std::sqrt(3.0), 1e-9);
+  EXPECT_NEAR(area_of(outline_of("projection(cut = true) difference() { cube([4, 4, 4], center = true); "
+                                 "cylinder(h = 9, r = 1, center = true); translate([2, 2, 0]) sphere(1); }")),
+              16 - pi - pi / 4, 1e-9);
+  EXPECT_NEAR(area_of(outline_of("projection(cut = true) polyhedron([[0, 0, -1], [4, 0, -1], [0, 4, -1], [0, 0, 3]], "
+                                 "[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]);")),
+              0.5 * 9, 1e-9);
+}
+
+TEST(CutProjection, OfAFaceInThePlaneCountsAboveIt) {
+  EXPECT_NEAR(area_of(outline_of("projection(cut = true) cube(2);")), 4, 1e-12);
+  EXPECT_EQ(tree_of("linear_extrude(1) projection(cut = true) translate([0, 0, -2]) cube(2); cube();"),
+            tree_of("cube();"));
+  EXPECT_NEAR(area_of(outline_of("projection(cut = true) rotate([0, 90, 0]) cylinder(h = 4, r = 1);")), 8, 1e-3);
+}
+
+TEST(CutProjection, AsksOtherSolids) {
+  EXPECT_NEAR(area_of(outline_of("projection(cut = true) rotate([90, 0, 0]) torus(3, 1);")), 2 * pi, 1e-3);
+  // A cone cut along its axis, less a ball.
+  EXPECT_NEAR(
+      area_of(outline_of("projection(cut = true) rotate([90, 0, 0]) difference() { cylinder(h = 4, r1 = 2, r2 = "
+                         "1); sphere(1); }")),
+      12 - pi / 2, 1e-3);
+}
+
+TEST(ShadowProjection, IsExactOfUnions) {
+  EXPECT_NEAR(area_of(outline_of("projection() translate([0, 0, 3]) sphere(5);")), 25 * pi, 1e-9);
+  EXPECT_NEAR(area_of(outline_of("projection() rotate([0, 54.735610317245346, 0]) rotate([0, 0, 45]) cube(2);")),
+              4 * std::sqrt(3.0), 1e-9);
+  EXPECT_NEAR(area_of(outline_of("projection() rotate([0, 90, 0]) cylinder(h = 4, r1 = 1, r2 = 2);")), 12, 1e-5);
+  EXPECT_NEAR(area_of(outline_of("projection() rotate([0, 30, 0]) cylinder(h = 4, r = 1);")),
+              pi * std::cos(pi / 6) + 2 * 4 * 0.5, 1e-4);
+  EXPECT_NEAR(area_of(outline_of("projection() { cube(2); translate([1, 1, 5]) cube(2); }")), 7, 1e-9);
+}
+
+TEST(ShadowProjection, AsksOtherSolids) {
+  EXPECT_NEAR(
+      area_of(outline_of("projection() intersection() { sphere(2); translate([0, 0, 1]) cube([9, 9, 2], center = "
+                         "true); }")),
+      4 * pi, 1e-3);
+  EXPECT_NEAR(area_of(outline_of("projection() torus(3, 1);")), 12 * pi, 1e-3);
+  EXPECT_NEAR(area_of(outline_of("projection() difference() { cube(2); translate([0, 0, 1]) cube(1); }")), 4, 1e-3);
+}
+
+TEST(Projection, SaysWhatItCannotDo) {
+  EXPECT_NE(error_of("projection() halfspace();").find("without end"), std::string::npos);
+  EXPECT_NE(warnings_of("projection() square(1); cube();").find("projection() takes solids"), std::string::npos);
+  EXPECT_EQ(tree_of("projection(); cube();"), tree_of("cube();"));
+}
+
+}  // namespace
+}  // namespace tenon
