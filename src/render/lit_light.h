@@ -48,13 +48,15 @@ class LitLight {
   /// a uniform world, of which no direction is worth drawing.
   double importance(const Vec3& point) const;
 
-  /// Draws a direction to the light; none where none of it can be seen.
+  /// Draws a direction to the light, by a place that only a light with extent has; none where none of it can be seen.
   std::optional<LightSample> sample(const Vec3& point, const Sample2& place) const;
 
   /// Where a ray from the origin, of length 1, meets the light's surface; none for lights without one.
   std::optional<LightHit> intersect(const Ray& ray) const;
 
   bool has_surface() const { return kind_ == LightKind::rectangle || kind_ == LightKind::sphere; }
+  /// Whether a place of it has to be drawn.
+  bool has_extent() const { return has_surface() || environment_ != nullptr; }
   const Environment* environment() const { return environment_; }
 
  private:

@@ -99,7 +99,9 @@ void LitScene::prepare_lights(const Scene& scene) {
 Rgb LitScene::color(const Hit& hit) const {
   const Prepared& material = prepared(hit.material);
   if (material.texture.kind == TextureKind::none) return material.color;
-  const double share = second_share(material.texture, hit.point);
+  // What lies under the face, further than the error of its place: a face that coincides with one of the pattern is of
+  // one colour.
+  const double share = second_share(material.texture, hit.point - (2 * hit.bound) * hit.normal);
   return (1 - share) * material.color + share * material.second;
 }
 

@@ -93,7 +93,9 @@ void PathIntegrator::connect(const Path& path, const Vertex& vertex, double choi
   const Hit& hit = vertex.hit;
   const LightChoice chosen = scene_.choose_light(hit.point, choice);
   if (chosen.light == nullptr) return;
-  const auto sample = chosen.light->sample(hit.point, sampler_(vertex.sample, pair_of(vertex.bounce, light_place)));
+  const Sample2 place =
+      chosen.light->has_extent() ? sampler_(vertex.sample, pair_of(vertex.bounce, light_place)) : Sample2{};
+  const auto sample = chosen.light->sample(hit.point, place);
   if (!sample) return;
   const double distance = length(sample->to_light);
   const Vec3 wi = vertex.frame.to_local(sample->to_light / distance);
@@ -155,10 +157,10 @@ void PathIntegrator::trace_shadow_rays(std::span<Rgb> light, TraceContext& conte
       light[ray.slot] += ray.light * transmittance(shadow_queries_[i], ray.medium, context);
     }
   } else {
-    occluders_.resize(shadow_queries_.size());
-    accelerator_.first_boundaries(shadow_queries_, occluders_, context);
-    for (std::size_t i = 0; i < occluders_.size(); ++i) {
-      if (occluders_[i].found()) continue;
+    occluded_.resize(shadow_queries_.size());
+    accelerator_.occluded(shadow_queries_, occluded_, context);
+    for (std::size_t i = 0; i < occluded_.size(); ++i) {
+      if (occluded_[i] != 0) continue;
       const ShadowRay& ray = shadow_rays_[i];
       const double distance = shadow_queries_[i].t_max * length(shadow_queries_[i].ray.direction);
       light[ray.slot] += ray.light * scene_.attenuation(ray.medium, distance);

@@ -79,7 +79,7 @@ class PathIntegrator final : public Integrator {
   std::vector<Hit> hits_, next_hits_;
   std::vector<RayQuery> shadow_queries_;
   std::vector<ShadowRay> shadow_rays_;
-  std::vector<RayBoundary> occluders_;
+  std::vector<std::uint8_t> occluded_;
   PassedBoundaries passed_;
 };
 

@@ -76,6 +76,23 @@ TEST(ReadLight, RadianceHdr) {
   std::filesystem::remove(path);
 }
 
+TEST(ReadLight, AFileThatEndsTooSoonIsAnError) {
+  const std::string path = place("short.hdr");
+  // Four rows of eight pixels, each component a run of eight; and five rows of seven, which are never encoded.
+  std::string encoded = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n",
+              flat = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 5 +X 7\n";
+  const std::size_t encoded_header = encoded.size(), flat_header = flat.size();
+  for (int row = 0; row < 4; ++row) encoded += std::string("\x02\x02\x00\x08\x88\x70\x88\x60\x88\x50\x88\x81", 12);
+  flat.append(5 * 7 * 4, '\x70');
+  for (const auto& [whole, header] : {std::pair(encoded, encoded_header), std::pair(flat, flat_header)}) {
+    for (std::size_t size = header; size <= whole.size(); ++size) {
+      std::ofstream(path, std::ios::binary) << whole.substr(0, size);
+      EXPECT_EQ(read_light(path).ok(), size == whole.size()) << size;
+    }
+  }
+  std::filesystem::remove(path);
+}
+
 TEST(ReadLight, WhatIsNoLightIsAnErrorOfItsFile) {
   for (const char* name : {"broken.exr", "broken.hdr", "picture.jpg"}) {
     const std::string path = place(name);

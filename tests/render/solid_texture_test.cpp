@@ -4,6 +4,11 @@
 
 #include <cmath>
 
+#include "render/lit_scene.h"
+#include "support/random.h"
+#include "tenon/accel/accelerator.h"
+#include "tenon/lang/load.h"
+
 namespace tenon {
 namespace {
 
@@ -29,6 +34,39 @@ TEST(SolidTexture, MovesWithItsFrame) {
       EXPECT_NEAR(second_share(here, p), second_share(there, move.point(p)), 1e-12);
     }
   }
+}
+
+// The cube's faces lie two and a half cubes of the pattern from its middle: where cubes meet.
+TEST(SolidTexture, AFaceWhereCubesOfThePatternMeetShowsWhatLiesUnderIt) {
+  Diagnostics diagnostics;
+  Result<Model> model = load_model_text(R"(
+    translate([7, -2, 5]) rotate([10, 20, 30])
+      material(model = "lambert", color = [1, 1, 1], texture = "checker", texture_color = [0, 0, 0], texture_size = 0.4)
+        difference() { cube(2, center = true); translate([-1, -1, 0.6]) cube(2); })",
+                                        "test.scad", {}, diagnostics);
+  ASSERT_TRUE(model.ok());
+  const Result<Scene> scene = compile_scene(std::move(*model), diagnostics);
+  ASSERT_TRUE(scene.ok());
+  const LitScene lit(*scene);
+  const SolidTexture& texture = scene->materials.front().texture;
+  const auto accelerator = build_accelerator("cells", *scene->tree);
+  const auto context = (*accelerator)->make_context();
+  const std::uint64_t seed = 5;
+  SCOPED_TRACE(seed);
+  Random random(seed);
+  int met = 0;
+  for (int i = 0; i < 2000; ++i) {
+    RayQuery query;
+    query.ray = {Vec3{7, -2, 5} + 5.0 * random.direction(), {}};
+    query.ray.direction = normalize(Vec3{7, -2, 5} + random.direction() - query.ray.origin);
+    const Hit hit = (*accelerator)->first_hit(query, *context);
+    const Vec3 under = hit.point - 1e-9 * hit.normal, deeper = hit.point - 0.01 * hit.normal;
+    // Not where cubes meet across the face.
+    if (!hit.found() || second_share(texture, under) != second_share(texture, deeper)) continue;
+    ++met;
+    EXPECT_EQ(lit.color(hit).r, 1 - second_share(texture, deeper));
+  }
+  EXPECT_GT(met, 1000);
 }
 
 TEST(GradientNoise, IsZeroAtWholeCoordinatesAndSmoothBetween) {
