@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "fuzz/try_heights.h"
 #include "fuzz/try_mesh.h"
 
 // What the fuzzers start from, and what they have found.
@@ -18,6 +19,10 @@ TEST(FuzzCorpus, EveryReaderBearsEveryFile) {
     for (const char* ending : {".stl", ".obj", ".off", ".ply", ".3mf"}) {
       SCOPED_TRACE(entry.path().string() + " as " + ending);
       fuzz::try_mesh({"corpus" + std::string(ending), bytes});
+    }
+    for (const char* ending : {".dat", ".png"}) {
+      SCOPED_TRACE(entry.path().string() + " as heights of " + ending);
+      fuzz::try_heights({"corpus" + std::string(ending), bytes});
     }
     ++files;
   }
