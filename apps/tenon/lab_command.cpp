@@ -12,7 +12,6 @@
 #include "numbers.h"
 #include "scene_arguments.h"
 #include "tenon/base/atomic_file.h"
-#include "tenon/base/interrupt.h"
 #include "tenon/base/suggestion.h"
 
 namespace tenon {
@@ -33,6 +32,7 @@ struct LabCommand {
 
  private:
   LabEffort effort() const;
+  Result<Json> measure(const Experiment& experiment, const Paper& paper, Lab& lab) const;
   Status write_pages() const;
 };
 
@@ -109,7 +109,8 @@ LabEffort LabCommand::effort() const {
   if (scale == 1) return effort;
   effort.name += " x " + shortest(scale);
   effort.scale *= scale;
-  effort.rounds = std::max(2, static_cast<int>(effort.rounds * scale));
+  // Pictures of a twentieth are to see whether all goes well; of half, for a slow machine.
+  if (scale < 0.5) effort.rounds = scale < 0.2 ? 1 : 3;
   effort.most_spheres = std::max(100.0, effort.most_spheres * scale * scale);
   effort.curve_seconds *= scale;
   return effort;
@@ -137,6 +138,24 @@ Status LabCommand::write_pages() const {
   return write_file(folder + "/README.md", index_markdown(*papers, tables));
 }
 
+// One table: measured, and written where its page looks for it, so that it is kept whatever happens after.
+Result<Json> LabCommand::measure(const Experiment& experiment, const Paper& paper, Lab& lab) const {
+  const auto begun = std::chrono::steady_clock::now();
+  const LabOrigin origin = find_origin(root);
+  LabTable table;
+  table.id = experiment.id;
+  lab.expect(experiment.weight);
+  if (Status status = experiment.run(lab, paper, table); !status) return status.error();
+  Json json = lab_json(table, paper, origin, lab.effort().name, seconds_since(begun));
+  if (folder.empty()) return json;
+  for (const LabPicture& picture : table.pictures) {
+    const Status status = write_file(folder + "/pictures/" + picture.name + ".png", picture.bytes);
+    if (!status) return status.error();
+  }
+  if (Status status = write_file(folder + "/data/" + table.id + ".json", to_text(json)); !status) return status.error();
+  return json;
+}
+
 Status LabCommand::run() const {
   if (only_pages) {
     if (folder.empty()) return usage_error("--pages writes the pages of a folder again; name it with -o");
@@ -146,7 +165,7 @@ Status LabCommand::run() const {
   if (!chosen) return chosen.error();
   const Result<std::vector<Paper>> papers = read_papers(root, *chosen);
   if (!papers) return papers.error();
-  for (const char* part : {"", "/data", "/plots", "/pictures"}) {
+  for (const char* part : {"/data", "/plots", "/pictures"}) {
     if (folder.empty()) break;
     if (Status status = make_folder(folder + part); !status) return status;
   }
@@ -155,30 +174,16 @@ Status LabCommand::run() const {
   double weights = 0;
   for (const Experiment& e : *chosen) weights += e.weight;
   lab.begin(weights);
+  const bool prints = folder.empty() && json_file.empty();
   Json all = Json::array();
   for (const Experiment& e : *chosen) {
-    if (noted_interrupt() != 0) break;
-    const auto begun = std::chrono::steady_clock::now();
-    const LabOrigin origin = find_origin(root);
-    const Paper& paper = paper_of(e, *papers);
-    LabTable table;
-    table.id = e.id;
-    lab.expect(e.weight);
-    if (Status status = e.run(lab, paper, table); !status) return status;
-    const Json json = lab_json(table, paper, origin, lab.effort().name, seconds_since(begun));
-    all.push_back(json);
-    if (folder.empty()) {
-      if (json_file.empty()) {
-        if (Status status = write_standard_output(table_markdown(json) + '\n'); !status) return status;
-      }
-      continue;
-    }
-    for (const LabPicture& picture : table.pictures) {
-      if (Status status = write_file(folder + "/pictures/" + picture.name + ".png", picture.bytes); !status) {
+    Result<Json> table = measure(e, paper_of(e, *papers), lab);
+    if (!table) return table.error();
+    if (prints) {
+      if (Status status = write_standard_output(table_markdown(paper_of(e, *papers), *table) + '\n'); !status)
         return status;
-      }
     }
-    if (Status status = write_file(folder + "/data/" + e.id + ".json", to_text(json)); !status) return status;
+    all.push_back(std::move(*table));
   }
   console.progress().end();
   if (!json_file.empty()) {
@@ -196,7 +201,7 @@ CommandBody add_lab_command(CLI::App& command) {
   command.add_flag("--quick", arguments->quick, "Smaller pictures and fewer rounds: minutes in place of half an hour");
   command
       .add_option("--scale", arguments->scale,
-                  "Sides of pictures, by this factor; rounds and the longest curves go with it")
+                  "Sides of pictures, by this factor; curves end sooner with it, and below 0.5 rounds are fewer")
       ->type_name("S")
       ->check(CLI::Range(0.01, 4.0).description("0.01 to 4"));
   command

@@ -25,21 +25,16 @@ Json figure_json(const LabFigure& figure, const std::optional<double>& printed) 
 
 Json claim_json(const JudgedClaim& judged) {
   const Claim& claim = judged.claim;
-  Json json{{"id", claim.id},
-            {"text", claim.text},
-            {"source", claim.source},
-            {"ratio", claim.ratio},
-            {"measured", optional_json(judged.measured)},
-            {"spread", judged.spread},
-            {"at_least", optional_json(claim.at_least)},
-            {"at_most", optional_json(claim.at_most)},
-            {"ratio_to_limit", optional_json(judged.ratio_to_limit)},
-            {"verdict", verdict_names[static_cast<std::size_t>(judged.verdict)]}};
-  const std::string& why = judged.verdict == Verdict::holds   ? claim.why_it_holds
-                           : judged.verdict == Verdict::fails ? claim.why_it_fails
-                                                              : std::string();
-  if (!why.empty()) json["why"] = why;
-  return json;
+  return {{"id", claim.id},
+          {"text", claim.text},
+          {"source", claim.source},
+          {"ratio", claim.ratio},
+          {"measured", optional_json(judged.measured)},
+          {"spread", judged.spread},
+          {"at_least", optional_json(claim.at_least)},
+          {"at_most", optional_json(claim.at_most)},
+          {"ratio_to_limit", optional_json(judged.ratio_to_limit)},
+          {"verdict", verdict_names[static_cast<std::size_t>(judged.verdict)]}};
 }
 
 Json plot_json(const LabPlot& plot) {

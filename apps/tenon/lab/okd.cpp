@@ -96,7 +96,8 @@ Result<ThesisResults> measure(Lab& lab, const ThesisTable& t, LabTable& table) {
   table.about =
       "Path traced with 8 samples a pixel and up to 20 surfaces along a path, 320 x 240 at full effort (the thesis: "
       "640 x "
-      "480), six runs. Improvement is over the triangle mesh, or over the NBVH where there is none. A mesh's build "
+      "480), six runs at full "
+      "effort. Improvement is over the triangle mesh, or over the NBVH where there is none. A mesh's build "
       "time "
       "is that of reading its file and building its tree.";
   table.columns = {

@@ -1,5 +1,6 @@
 #include "lab/page.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -125,7 +126,16 @@ std::string verdict_text(const Json& claim) {
   return text;
 }
 
-std::string claims_markdown(const Json& table) {
+// Why a claim holds or does not; empty where nobody looked into it. It is not kept with the figures: what is found out
+// later is to be on the next page.
+std::string reason(const Paper& paper, const Json& claim) {
+  const auto found =
+      std::find_if(paper.claims.begin(), paper.claims.end(), [&](const Claim& c) { return claim["id"] == c.id; });
+  if (found == paper.claims.end() || claim["verdict"] == "not comparable") return "";
+  return claim["verdict"] == "holds" ? found->why_it_holds : found->why_it_fails;
+}
+
+std::string claims_markdown(const Paper& paper, const Json& table) {
   if (table["claims"].empty()) return "";
   std::string text = "\n| claim | where | what decides | limit | verdict |\n|:--|:--|:--|--:|:--|\n";
   for (const Json& claim : table["claims"]) {
@@ -133,9 +143,9 @@ std::string claims_markdown(const Json& table) {
             claim["ratio"].get<std::string>() + " | " + limit_text(claim) + " | " + verdict_text(claim) + " |\n";
   }
   for (const Json& claim : table["claims"]) {
-    if (!claim.contains("why")) continue;
-    text += "\n* *" + claim["text"].get<std::string>() + "*: " + claim["verdict"].get<std::string>() + ". " +
-            claim["why"].get<std::string>();
+    const std::string why = reason(paper, claim);
+    if (why.empty()) continue;
+    text += "\n* *" + claim["text"].get<std::string>() + "*: " + claim["verdict"].get<std::string>() + ". " + why;
   }
   return text + '\n';
 }
@@ -186,14 +196,14 @@ std::string figure_text(double value, const std::string& form) {
   return three_digits(value);
 }
 
-std::string table_markdown(const Json& table) {
+std::string table_markdown(const Paper& paper, const Json& table) {
   std::string text = "## " + table["title"].get<std::string>();
   const std::string source = table["source"];
   if (!source.empty()) text += " (" + source + ")";
   text += "\n\n" + table["about"].get<std::string>() + "\n\n" + figures_markdown(table);
   text += '\n' + origin_line(table) + noise_line(table);
   for (const Json& note : table["notes"]) text += "\n> " + note.get<std::string>() + '\n';
-  return text + pictures_markdown(table) + claims_markdown(table);
+  return text + pictures_markdown(table) + claims_markdown(paper, table);
 }
 
 std::string page_markdown(const Paper& paper, const std::vector<Json>& tables) {
@@ -203,7 +213,7 @@ std::string page_markdown(const Paper& paper, const std::vector<Json>& tables) {
       "half of the distance between the slowest and the fastest round, from five rounds on without the "
       "two at the ends. Made by `./dev lab`; the figures are in [data](data).\n";
   for (const Json& table : tables) {
-    if (table["paper"] == paper.id) text += '\n' + table_markdown(table);
+    if (table["paper"] == paper.id) text += '\n' + table_markdown(paper, table);
   }
   return text;
 }

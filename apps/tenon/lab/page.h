@@ -12,8 +12,9 @@ namespace tenon {
 /// @param form  see lab_json()
 std::string figure_text(double value, const std::string& form);
 
-/// One table in Markdown: what lab_json() keeps of it, with the verdicts on its claims.
-std::string table_markdown(const nlohmann::ordered_json& table);
+/// One table in Markdown: what lab_json() keeps of it, with the verdicts on its claims, and why where the paper's file
+/// says so.
+std::string table_markdown(const Paper& paper, const nlohmann::ordered_json& table);
 
 /// The page of a paper, in Markdown.
 std::string page_markdown(const Paper& paper, const std::vector<nlohmann::ordered_json>& tables);

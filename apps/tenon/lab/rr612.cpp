@@ -41,6 +41,10 @@ Result<std::vector<RaceResult>> race_scene(Lab& lab, const LabScene& scene, int 
   return race(lab, contenders, course_options(depth));
 }
 
+double tests_a_ray(const RaceResult& r) {
+  return static_cast<double>(r.statistics.total().primitive_tests) / r.rays();
+}
+
 }  // namespace
 
 Status run_rr612_scenes(Lab& lab, const Paper&, LabTable& table) {
@@ -68,7 +72,9 @@ Status run_rr612_gain(Lab& lab, const Paper& paper, LabTable& table) {
                    {"subdivision", FigureForm::seconds},
                    {"traditional", FigureForm::seconds},
                    {"space tracing", FigureForm::seconds},
-                   {"gain factor", FigureForm::times}};
+                   {"gain factor", FigureForm::times},
+                   {"tests a ray, traditional", FigureForm::number},
+                   {"tests a ray, space tracing", FigureForm::number}};
   Ratios shares;
   lab.expect_steps(race_steps(lab, 2) * static_cast<int>(scenes.size()));
   for (const PaperScene& s : scenes) {
@@ -81,7 +87,8 @@ Status run_rr612_gain(Lab& lab, const Paper& paper, LabTable& table) {
     note_differences(*results, table);
     table.rows.push_back({s.name,
                           {counted(static_cast<double>(space.figures.boxes)), space.build_figure(),
-                           none.render_figure(), space.render_figure(), speedup_figure(none, space)}});
+                           none.render_figure(), space.render_figure(), speedup_figure(none, space),
+                           counted(tests_a_ray(none)), counted(tests_a_ray(space))}});
     std::string id = s.name;
     std::transform(id.begin(), id.end(), id.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

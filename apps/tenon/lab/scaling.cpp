@@ -131,7 +131,7 @@ Status run_scaling_size(Lab& lab, const Paper& paper, LabTable& table) {
 Status run_scaling_stadium(Lab& lab, const Paper& paper, LabTable& table) {
   table.title = "A teapot in a stadium";
   table.about =
-      "Newell's teapot of some 900 triangles on a large ground, alone and in the middle of 2,400 seats "
+      "Newell's teapot of some 900 triangles on a ground of its size, and on the lawn of a stadium of 2,400 seats "
       "(`lab/scenes/stadium.scad`); the same picture but for the seats, and one from the stand.";
   const std::vector<std::string> specs = [] {
     std::vector<std::string> names = all_structures();
