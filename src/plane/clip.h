@@ -1,6 +1,7 @@
 #pragma once
 
 #include "plane/recover.h"
+#include "primitive/check.h"
 
 namespace tenon {
 
@@ -13,6 +14,11 @@ inline ClipperLib::Paths clip(ClipperLib::ClipType type, const ClipperLib::Paths
   ClipperLib::Paths result;
   clipper.Execute(type, result, fill, fill);
   return result;
+}
+
+/// Whether there is a grid for coordinates up to this; outlines smaller or larger than primitives may be are none.
+inline bool has_grid(double largest) {
+  return largest >= smallest_size && largest <= largest_size;
 }
 
 /// Bound on the |coordinates| of an outline.

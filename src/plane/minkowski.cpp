@@ -182,7 +182,9 @@ Outline chopped(const Outline& outline) {
 // Moved along the boundary of the other, the boundary of each sweeps a parallelogram with each edge; what is moved to
 // one corner of each loop of the other lies inside.
 Outline sum_of_polygons(const Outline& a, const Outline& b) {
-  Chords chords(largest_coordinate(a) + largest_coordinate(b));
+  const double largest = largest_coordinate(a) + largest_coordinate(b);
+  if (!has_grid(largest)) return {};
+  Chords chords(largest);
   ClipperLib::Paths pieces;
   const auto add = [&](const Outline& outline, bool orient) {
     for (ClipperLib::Path& path : chords.add(outline)) {

@@ -87,6 +87,7 @@ Outline offset(const Outline& outline, double distance, OffsetJoin join) {
   for (const auto& loop : outline.loops) bands.add(loop);
   double largest = largest_coordinate(outline);
   for (const Outline& piece : bands.pieces()) largest = std::max(largest, largest_coordinate(piece));
+  if (!has_grid(largest)) return {};
   Chords chords(largest);
   const ClipperLib::Paths shape = chords.add(outline);
   ClipperLib::Paths swept;

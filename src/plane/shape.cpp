@@ -37,7 +37,7 @@ Paths polygons_of(const Shape& shape, Chords& chords) {
 
 Outline resolve(const Shape& shape) {
   const double largest = largest_coordinate(shape);
-  if (!(largest > 0)) return {};
+  if (!has_grid(largest)) return {};
   Chords chords(largest);
   const Paths paths = polygons_of(shape, chords);
   chords.index();
@@ -46,7 +46,7 @@ Outline resolve(const Shape& shape) {
 
 Outline resolve_winding(const Outline& outline) {
   const double largest = largest_coordinate(outline);
-  if (!(largest > 0)) return {};
+  if (!has_grid(largest)) return {};
   Chords chords(largest);
   const Paths paths = clip(ClipperLib::ctUnion, chords.add(outline), {});
   chords.index();

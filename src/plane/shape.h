@@ -22,7 +22,7 @@ struct Shape {
 /// Polygons decide what meets what (Clipper), with a grid of 2⁻⁴⁸ and chords within 2⁻¹⁵ of the largest coordinate;
 /// corners are then found on the segments and arcs themselves, so that the outline is exact, but for boundaries of arcs
 /// nearer than 2⁻¹⁵ to one another.
-/// @return no loops where nothing is enclosed
+/// @return no loops where nothing is enclosed, or all is smaller or larger than a primitive may be (1e-60 to 1e60)
 Outline resolve(const Shape& shape);
 
 /// The same of loops in which a point is inside that they wind around at all, as fonts have it.

@@ -86,6 +86,17 @@ TEST(Resolve, LeavesNothingOfShapesThatCancel) {
   EXPECT_TRUE(resolve({}).loops.empty());
 }
 
+// A grid finer than doubles, or coarser, has no points.
+TEST(Resolve, MakesNothingOfSizesThatNothingHas) {
+  for (const double size : {1e-320, 1e-100, 1e100, 1e308}) {
+    const Outline triangle{{{{0, 0, 0}, {size, 0, 0.3}, {0, size, 0}}}};
+    EXPECT_TRUE(resolve(Shape::of(triangle)).loops.empty()) << size;
+    EXPECT_TRUE(resolve_winding(triangle).loops.empty()) << size;
+  }
+  const Outline small{{{{0, 0, 0}, {1e-59, 0, 0}, {0, 1e-59, 0}}}};
+  EXPECT_EQ(resolve(Shape::of(small)).loops.size(), 1u);
+}
+
 TEST(ResolveWinding, FillsWhereLoopsOverlap) {
   const Outline cross{
       {{{-3, -1, 0}, {3, -1, 0}, {3, 1, 0}, {-3, 1, 0}}, {{-1, -3, 0}, {1, -3, 0}, {1, 3, 0}, {-1, 3, 0}}}};
