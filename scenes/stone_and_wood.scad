@@ -2,7 +2,7 @@
 //   tenon render scenes/stone_and_wood.scad --integrator path --spp 256 --size 1280x720
 include <tenon.scad>
 
-camera(from = [1, -15, 8.5], at = [0, 0, 1.5], fov = 38);
+camera(from = [1, -15, 8.5], at = [0, 0, 1.5], fov = 46);
 light(type = "sky", direction = [0.6, 0.8, -0.8], intensity = 0.6);
 light(type = "sphere", position = [-10, -12, 16], radius = 2, color = [1, 0.95, 0.88], intensity = 38);
 background([0.85, 0.87, 0.9]);

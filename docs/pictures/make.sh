@@ -27,6 +27,7 @@ picture ima1 ima1 --size 640x480 --spp 9
 picture ima2 ima2 --size 640x480 --spp 9
 picture ima3 ima3 --size 640x480 --spp 4 --depth 5
 picture forest forest --size 960x600 --spp 16
+picture stone_and_wood stone_and_wood --size 480x360 --integrator path --spp 96 --denoise
 picture grooved_sphere grooved_sphere --size 480x360 --spp 9
 picture checkered_cube checkered_cube --size 480x360 --spp 9
 picture small_shell small_shell --size 480x360 --spp 9
