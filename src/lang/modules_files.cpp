@@ -1,7 +1,11 @@
+#include <cmath>
 #include <filesystem>
+
+#include "drawing/svg.h"
 
 #include "lang/drawing_file.h"
 #include "lang/failure.h"
+#include "lang/flat_outline.h"
 #include "lang/primitive_arguments.h"
 #include "lang/source_files.h"
 #include "mesh/load_mesh.h"
@@ -66,9 +70,31 @@ Solid mesh_of_file(ModuleCall& call, Place at, const NamedFile& file, const std:
   return call.evaluator.builder().leaf(known);
 }
 
+std::optional<Solid> import_svg(ModuleCall& call, const ModuleArguments& arguments) {
+  const NamedFile named = require_file(call, arguments, "a picture");
+  SvgOptions options;
+  options.dpi = number_argument(call, arguments, 8, "dpi").value_or(options.dpi);
+  if (!(options.dpi > 0) || !std::isfinite(options.dpi)) fail(arguments.at(8), "'dpi' must be positive");
+  options.center = arguments[7].truth();
+  if (const String* layer = arguments[2].string()) options.layer = layer->text();
+  if (const String* id = arguments[9].string()) options.id = id->text();
+  const Result<InputFile> file = read_input_file(named.found, "a picture");
+  if (!file) throw Failure{file.error()};
+  Result<SvgPicture> picture = read_svg(*file, options);
+  if (!picture) throw Failure{picture.error()};
+  for (const std::string& note : picture->notes) {
+    call.evaluator.environment().warn(arguments.at(0), named.found + ": " + note);
+  }
+  return flat_solid(call.evaluator, std::move(picture->outline), arguments.at(0));
+}
+
 std::optional<Solid> import(ModuleCall& call) {
-  constexpr std::string_view names[] = {"file", "convexity", "layer", "origin", "scale", "hull", "local"};
+  constexpr std::string_view names[] = {"file", "convexity", "layer",  "origin", "scale",
+                                        "hull", "local",     "center", "dpi",    "id"};
   const ModuleArguments arguments(call, names, UnknownArgument::warn);
+  if (const String* name = arguments[0].string(); name && ending_of(name->text()) == ".svg") {
+    return import_svg(call, arguments);
+  }
   if (const String* name = arguments[0].string(); name && is_drawing(name->text())) {
     DrawingRequest request = drawing_request(call, arguments, 0, 2, 3);
     request.scale = number_argument(call, arguments, 4, "scale").value_or(1);

@@ -15,13 +15,12 @@ TEST(FuzzCorpus, EveryDrawingReaderBearsEveryFile) {
     if (!entry.is_regular_file()) continue;
     std::ifstream stream(entry.path(), std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-    for (const char* ending : {".dxf"}) {
-      SCOPED_TRACE(entry.path().string() + " as " + ending);
-      fuzz::try_drawing({"corpus" + std::string(ending), bytes});
-    }
+    SCOPED_TRACE(entry.path().string());
+    fuzz::try_drawing({"corpus.dxf", bytes});
+    fuzz::try_svg({"corpus.svg", bytes});
     ++files;
   }
-  EXPECT_GE(files, 9);
+  EXPECT_GE(files, 10);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "drawing/load_drawing.h"
+#include "drawing/svg.h"
 #include "primitive/outline_edges.h"
 
 namespace tenon::fuzz {
@@ -30,6 +31,16 @@ inline void try_drawing(const InputFile& file) {
   if (check_outline("prism", drawn.outline).empty()) OutlineEdges(drawn.outline).contains({0, 0});
   (void)measure(*drawing, "", "");
   (void)crossing(*drawing, "");
+}
+
+/// The same of an SVG file.
+inline void try_svg(const InputFile& file) {
+  const Result<SvgPicture> picture = read_svg(file, {});
+  const bool sound = picture ? true : !picture.error().message.empty() && picture.error().where.known();
+  if (!sound) {
+    std::fputs("an error says nothing\n", stderr);
+    std::abort();
+  }
 }
 
 }  // namespace tenon::fuzz

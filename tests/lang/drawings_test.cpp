@@ -45,6 +45,18 @@ TEST_F(Drawings, MayBeExtrudedByName) {
             tree_of("rotate_extrude() import(" + file + ", layer = \"disc\", origin = [2, 0]);"));
 }
 
+TEST_F(Drawings, MayBeSvg) {
+  write("a.svg",
+        "<svg width=\"10\" height=\"72\"><rect x=\"1\" y=\"2\" width=\"4\" height=\"5\"/><text>a</text></svg>");
+  const std::string picture = "\"" + (folder / "a.svg").string() + "\"";
+  // The page is an inch high.
+  EXPECT_NE(tree_of("linear_extrude(2) import(" + picture + ");").find("[5, 23.4]"), std::string::npos)
+      << tree_of("linear_extrude(2) import(" + picture + ");");
+  EXPECT_NE(tree_of("linear_extrude(2) import(" + picture + ", center = true);").find("[2, 2.5]"), std::string::npos)
+      << tree_of("linear_extrude(2) import(" + picture + ", center = true);");
+  EXPECT_NE(warnings_of("linear_extrude(2) import(" + picture + ");").find("text is left out"), std::string::npos);
+}
+
 TEST_F(Drawings, AreMeasured) {
   EXPECT_EQ(evaluate("echo(dxf_dim(file = " + file + ", name = \"side\", scale = 2));").said(), "ECHO: 8\n");
   EXPECT_EQ(evaluate("echo(dxf_cross(file = " + file + ", layer = \"cross\", origin = [1, 1]));").said(),
