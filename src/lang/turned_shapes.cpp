@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "csg/tolerance.h"
 #include "lang/flat_outline.h"
@@ -19,6 +20,26 @@ bool has_arcs(const Outline& outline) {
   return std::any_of(outline.loops.begin(), outline.loops.end(), [](const Loop& loop) {
     return std::any_of(loop.begin(), loop.end(), [](const OutlineCorner& c) { return c.bulge != 0; });
   });
+}
+
+/// The circle that an outline is, if it is one: arcs that turn the same way around one centre, once.
+/// @param same_place  how far apart two places are that count as one
+std::optional<Circle> whole_circle(const Outline& outline, double same_place) {
+  if (outline.loops.size() != 1) return std::nullopt;
+  const Loop& loop = outline.loops.front();
+  std::optional<Circle> circle;
+  double quarter_turns = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const OutlineCorner &a = loop[i], &b = loop[(i + 1) % loop.size()];
+    if (a.bulge == 0 || (a.bulge > 0) != (loop.front().bulge > 0)) return std::nullopt;
+    const auto [center, radius] = circle_of_arc({a.x, a.y}, {b.x, b.y}, a.bulge);
+    if (!circle) circle = Circle{center, radius};
+    const bool same = length(center - circle->center) <= same_place && std::fabs(radius - circle->radius) <= same_place;
+    if (!same) return std::nullopt;
+    quarter_turns += std::atan(std::fabs(a.bulge));
+  }
+  // Once around is a quarter turn of pi / 2, twice would be one of pi.
+  return quarter_turns < 2 ? circle : std::nullopt;
 }
 
 /// Cuts off what lies left of the axis: each loop runs along the axis there instead.
@@ -165,6 +186,12 @@ class Turner {
       if (outline.loops.empty()) return Solid::nothing();
     }
     SceneBuilder& builder = evaluator_.builder();
+    if (const auto circle = whole_circle(outline, same_place()); circle && circle->radius <= circle->center.x) {
+      const Result<PrimitiveId> torus = builder.model().graph.primitives.add(
+          *PrimitiveStore::find_kind("torus"), std::vector<FieldValue>{circle->center.x, circle->radius});
+      if (torus && circle->center.y == 0) return builder.leaf(*torus);
+      if (torus) return builder.wrap(Transform{Affine3::translate({0, 0, circle->center.y})}, {builder.leaf(*torus)});
+    }
     const Result<PrimitiveId> made = builder.model().graph.primitives.add(*PrimitiveStore::find_kind("revolution"),
                                                                           std::vector<FieldValue>{outline});
     return made ? builder.leaf(*made) : Solid::nothing();

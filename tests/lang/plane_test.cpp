@@ -81,19 +81,20 @@ TEST(LinearExtrude, SaysWhatItCannotDo) {
 }
 
 TEST(RotateExtrude, KeepsArcs) {
-  EXPECT_EQ(tree_of("rotate_extrude() translate([5, 0]) circle(1);"),
-            "revolution(outline = [[[5, -1, 1], [5, 1, 1]]]);\n");
+  EXPECT_EQ(tree_of("rotate_extrude() translate([5, 0]) circle(1);"), "torus(R = 5, r = 1);\n");
   EXPECT_EQ(
       tree_of(
           "rotate_extrude() difference() { translate([1, 0]) square(2); translate([3, 1]) mirror([1, 0]) circle(1); }"),
       "difference() {\n"
       "\trevolution(outline = [[[1, 0], [3, 0], [3, 2], [1, 2]]]);\n"
-      "\trevolution(outline = [[[3, 0, -1], [3, 2, -1]]]);\n"
+      "\tmultmatrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 1], [0, 0, 0, 1]]) {\n"
+      "\t\ttorus(R = 3, r = 1);\n"
+      "\t}\n"
       "}\n");
   // What is uneven along the axes is so after the turn.
   EXPECT_EQ(tree_of("rotate_extrude() scale([1, 0.5]) translate([5, 0]) circle(1);"),
             "multmatrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0.5, 0], [0, 0, 0, 1]]) {\n"
-            "\trevolution(outline = [[[5, -1, 1], [5, 1, 1]]]);\n"
+            "\ttorus(R = 5, r = 1);\n"
             "}\n");
   EXPECT_NE(error_of("rotate_extrude() translate([5, 0]) rotate(30) scale([1, 2]) circle(1);")
                 .find("rotate_extrude() of an ellipse whose axes are turned is not supported yet"),
