@@ -107,7 +107,7 @@ const std::map<std::string, std::string> scenes{
 TEST(Pov, EveryPrimitiveIsWrittenOrRefusedByName) {
   const std::map<std::string, std::string> refused{
       {"prism", "linear_extrude(2) polygon([[0, 0], [2, 0], [1, 0.5], [0, 2]]);"},
-      {"revolution", "rotate_extrude() translate([2, 0]) circle(1);"},
+      {"revolution", "rotate_extrude() translate([2, 0]) polygon([[0, 0], [1, 0], [0, 2]]);"},
       {"truncated_cone", "truncated_cone(h = 2, a1 = 1, b1 = 0.5, a2 = 0.5, b2 = 1);"},
       {"bicubic", "bicubic([for (y = [0 : 3]) [for (x = [0 : 3]) [x, y, x == 0 || x == 3 ? 0 : 1]]]);"},
       {"twisted_prism", "linear_extrude(2, twist = 90) square(1);"},
