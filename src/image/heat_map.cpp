@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 
 #include "image/text.h"
 #include "image/viridis.h"
@@ -36,7 +37,7 @@ class ColorScale {
     logarithmic_ = map.scale == HeatScale::logarithmic || (map.scale == HeatScale::automatic && steep);
     if (map.largest > 0) last_ = map.largest;
     if (!(last_ > 0)) last_ = 1;
-    if (logarithmic_) first_ = map.largest > 0 || !(least > 0) ? std::min(1.0, 1e-3 * last_) : least;
+    if (logarithmic_) first_ = map.largest > 0 || !(least > 0) ? std::min(1.0, three_decades * last_) : least;
     if (logarithmic_ && !(first_ < last_)) first_ = last_ / 10;
   }
 
@@ -52,6 +53,10 @@ class ColorScale {
   std::vector<double> ticks() const { return logarithmic_ ? logarithmic_ticks() : linear_ticks(); }
 
  private:
+  static constexpr double three_decades = 1e-3;
+  // Of a power of ten and its products: a dozen roundings.
+  static constexpr double rounding = 12 * std::numeric_limits<double>::epsilon();
+
   std::vector<double> linear_ticks() const {
     const double power = std::pow(10, std::floor(std::log10(last_)));
     double step = power;
@@ -59,7 +64,7 @@ class ColorScale {
       if (last_ / step < 4) step = part * power;
     }
     std::vector<double> ticks;
-    for (int i = 0; i * step <= last_ * (1 + 1e-9); ++i) ticks.push_back(i * step);
+    for (int i = 0; i * step <= last_ * (1 + rounding); ++i) ticks.push_back(i * step);
     return ticks;
   }
 
@@ -71,7 +76,7 @@ class ColorScale {
       for (const double digit : {1.0, 2.0, 5.0}) {
         if (digit != 1 && decades > 2) continue;
         const double tick = digit * power;
-        if (tick >= first_ * (1 - 1e-9) && tick <= last_ * (1 + 1e-9)) ticks.push_back(tick);
+        if (tick >= first_ * (1 - rounding) && tick <= last_ * (1 + rounding)) ticks.push_back(tick);
       }
     }
     return ticks;

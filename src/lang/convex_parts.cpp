@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "csg/tolerance.h"
 #include "lang/flat_outline.h"
 #include "lang/primitive_arguments.h"
 #include "mesh/convex_hull.h"
@@ -13,6 +14,7 @@
 #include "plane/shape.h"
 #include "primitive/convex_polyhedron.h"
 #include "primitive/outline_edges.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon::lang {
 
@@ -247,24 +249,39 @@ class Spanner {
   SpanningBalls spanning_;
 };
 
-double volume_of(const std::vector<Vec3>& points, std::span<const std::size_t> face) {
-  double sum = 0;
-  for (std::size_t i = 2; i < face.size(); ++i) {
-    sum += dot(points[face[0]], cross(points[face[i - 1]], points[face[i]])) / 6;
-  }
-  return sum;
-}
+// Twice the area, and six times the volume between a fan of triangles and an apex.
+struct Measures {
+  double area = 0, volume = 0;
 
-// A mesh is as large as its hull when it is that.
+  void add(const std::vector<Vec3>& points, std::span<const std::size_t> face, const Vec3& apex) {
+    for (std::size_t i = 2; i < face.size(); ++i) {
+      const Vec3 a = points[face[0]] - apex,
+                 n = cross(points[face[i - 1]] - points[face[0]], points[face[i]] - points[face[0]]);
+      area += length(n);
+      volume += dot(a, n);
+    }
+  }
+};
+
+// A mesh is as large as its hull when it is that, but for dents that count as flat (Tolerance) and for rounding: each
+// of n terms is at most the area times the diameter.
 bool is_convex(const TriangleMesh& mesh) {
   const ConvexHull hull = convex_hull(mesh.vertices);
-  double hull_volume = 0, volume = 0;
-  for (const auto& face : hull.faces) hull_volume += volume_of(hull.points, face);
+  const Vec3 apex = mesh.vertices.front();
+  Measures whole, own;
+  for (const auto& face : hull.faces) whole.add(hull.points, face, apex);
+  double largest = 0, diameter = 0;
   for (const auto& corners : mesh.triangles) {
     const std::size_t face[] = {corners[0], corners[1], corners[2]};
-    volume += volume_of(mesh.vertices, face);
+    own.add(mesh.vertices, face, apex);
+    for (const std::size_t i : face) {
+      largest = std::max(largest, max_component(abs(mesh.vertices[i])));
+      diameter = std::max(diameter, 2 * length(mesh.vertices[i] - apex));
+    }
   }
-  return std::fabs(std::fabs(hull_volume) - volume) <= 1e-9 * volume;
+  const auto terms = static_cast<int>(std::min<std::size_t>(mesh.triangles.size(), 1 << 24));
+  const double slack = 3 * Tolerance::relative * largest + gamma(terms + 16) * diameter;
+  return std::fabs(std::fabs(whole.volume) - own.volume) <= std::max(own.area, whole.area) * slack;
 }
 
 }  // namespace

@@ -244,6 +244,14 @@ double Bicubic::support(const Vec3& n) const {
   return greatest;
 }
 
+// Subdivision ends at parts no larger than `size` along three axes, so the start lies within sqrt(3) times that of the
+// surface, and so does a part that is met again: until the ray is twice as far away across the surface, it is the
+// start.
+double Bicubic::blur_of_start(const LocalRay& ray, std::uint32_t face) const {
+  const double across = std::fabs(dot(normalize(normal(ray.origin, face)), ray.direction));
+  return 2 * std::sqrt(3) * size / across;
+}
+
 void Bicubic::spans(const LocalRay& ray, Spans& out) const {
   if (method.name() == "polygons") return surface_->mesh.spans(ray, out);
   thread_local std::vector<PatchRoot> found;
@@ -266,8 +274,9 @@ void Bicubic::spans(const LocalRay& ray, Spans& out) const {
     const auto face = static_cast<std::uint32_t>(ray.on_face);
     const double u = u_of(face), v = v_of(face);
     SurfaceRoot start{{{0, 0, 0}, u, v, dot(normal(ray.origin, face), ray.direction) < 0}, patch_of(face)};
-    std::erase_if(roots, [&start](const SurfaceRoot& root) {
-      return root.against == start.against && root.lo <= 0 && root.hi >= 0;
+    const double blur = method.name() == "subdivision" ? blur_of_start(ray, face) : 0;
+    std::erase_if(roots, [&](const SurfaceRoot& root) {
+      return std::fabs(root.t) < blur || (root.against == start.against && root.lo <= 0 && root.hi >= 0);
     });
     roots.push_back(start);
   }

@@ -71,6 +71,7 @@ class Bicubic {
   };
   std::string find_problem() const;
   std::string split_into_patches(Surface& surface) const;
+  double blur_of_start(const LocalRay& ray, std::uint32_t face) const;
   TriangleMesh polygons(const std::vector<Patch>& patches, std::size_t count) const;
 
   std::shared_ptr<const Surface> surface_;
