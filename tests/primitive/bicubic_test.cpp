@@ -284,6 +284,48 @@ TEST(Bicubic, StartsOnItsOwnSurface) {
   }
 }
 
+// A bump that rays leave upward: whatever the method takes for the surface, none of it lies above where they start.
+TEST(Bicubic, RaysThatLeaveABumpMeetNoPartOfIt) {
+  const PrimitiveKind& kind = *PrimitiveStore::find_kind("bicubic");
+  std::vector<FieldValue> values;
+  for (const FieldInfo& field : kind.fields) values.push_back(field.fallback);
+  PointLists net(4, std::vector<Vec3>(4));
+  for (std::size_t i = 0; i < 16; ++i) {
+    const std::size_t x = i % 4, y = i / 4;
+    const bool inner = x % 3 != 0 && y % 3 != 0;
+    net[y][x] = {static_cast<double>(x), static_cast<double>(y), inner ? 2.0 : 0.0};
+  }
+  values[0] = ControlNets{net};
+  for (std::uint8_t method = 0; method < 3; ++method) {
+    Choice choice = std::get<Choice>(kind.fields[4].fallback);
+    choice.index = method;
+    values[4] = choice;
+    PrimitiveStore store;
+    const Result<PrimitiveId> id = store.add(kind, values);
+    ASSERT_TRUE(id.ok());
+    Random random(9);
+    int starts = 0, met = 0;
+    for (int n = 0; n < 20'000; ++n) {
+      const Vec3 aim{random.uniform(0.1, 2.9), random.uniform(0.1, 2.9), 0.5}, down = random.direction();
+      LocalRay ray{aim - 10 * down, down, {}, {}, -1};
+      Spans out;
+      spans(store, *id, ray, out);
+      if (out.empty()) continue;
+      ray.origin += out.front().t * ray.direction;
+      ray.on_face = static_cast<int>(out.front().face);
+      const Vec3 normal = normalize(tenon::normal(store, *id, ray.origin, out.front().face));
+      ray.direction = normalize(normal.z > 0 ? normal : -normal) + 0.6 * random.in_cube();
+      ++starts;
+      out.clear();
+      spans(store, *id, ray, out);
+      // A bump curves back: what is met close by is the start again.
+      for (const Crossing& c : out) met += c.t - c.bound > 0 && c.t < 0.02;
+    }
+    EXPECT_GT(starts, 5'000);
+    EXPECT_EQ(met, 0) << choice.name();
+  }
+}
+
 TEST(Bicubic, WhatIsNoPatchIsRefused) {
   const auto problem = [](ControlNets nets, std::string_view basis, bool hull) {
     PrimitiveStore store;
