@@ -10,22 +10,43 @@ matplotlib.use("svg")
 import matplotlib.pyplot as plt
 from matplotlib import ticker
 
-# The same figures make the same file.
+# The same figures make the same file, and text stays text.
 matplotlib.rcParams["svg.hashsalt"] = "tenon"
+matplotlib.rcParams["svg.fonttype"] = "none"
+matplotlib.rcParams["font.family"] = "sans-serif"
 MARKERS = "osD^v<>Pp*Xhd8"
-COLORS = plt.get_cmap("tab20").colors[::2] + plt.get_cmap("tab20").colors[1::2]
+COLORS = [*plt.get_cmap("tab10").colors, "black", "navy", "darkgreen", "maroon"]
+LINES = ("solid", "dashed", "dotted")
 
 
 def plain(value, _):
-    return f"{value:g}" if 1e-3 <= abs(value) < 1e4 or value == 0 else f"{value:.0e}"
+    return f"{value:g}" if 1e-3 <= abs(value) < 1e4 or value == 0 else f"$10^{{{len(f'{value:.0f}') - 1}}}$"
+
+
+def looks(names):
+    """Names with a comma belong to one thing each, which has a colour, and are told apart by their lines."""
+    things = list(dict.fromkeys(name.split(", ")[0] for name in names))
+    seen = dict.fromkeys(things, 0)
+    for name in names:
+        thing = name.split(", ")[0]
+        color = things.index(thing)
+        yield {
+            "color": COLORS[color % len(COLORS)],
+            "marker": MARKERS[color % len(MARKERS)],
+            "linestyle": LINES[seen[thing] % len(LINES)],
+        }
+        seen[thing] += 1
 
 
 def draw(plot, path):
     figure, axes = plt.subplots(figsize=(8, 5))
-    for i, series in enumerate(plot["series"]):
-        color = COLORS[i % len(COLORS)]
-        axes.plot(series["x"], series["y"], marker=MARKERS[i % len(MARKERS)], markersize=5, color=color, label=series["name"])
-        if series["cut_off"] and series["x"]:
+    all_series = [series for series in plot["series"] if series["x"]]
+    # The legend has the order of the curves' ends, from above.
+    for series, look in sorted(
+        zip(all_series, looks([series["name"] for series in all_series])), key=lambda pair: -pair[0]["y"][-1]
+    ):
+        axes.plot(series["x"], series["y"], markersize=5, label=series["name"], **look)
+        if series["cut_off"]:
             axes.plot(series["x"][-1], series["y"][-1], marker="x", markersize=13, color="black", markeredgewidth=1.5)
     if plot["logarithmic_x"]:
         axes.set_xscale("log")
@@ -33,16 +54,17 @@ def draw(plot, path):
         axes.set_yscale("log")
     else:
         axes.set_ylim(bottom=0)
-    for axis, logarithmic in ((axes.xaxis, plot["logarithmic_x"]), (axes.yaxis, plot["logarithmic_y"])):
-        if not logarithmic:
-            axis.set_major_formatter(ticker.FuncFormatter(plain))
+    if not plot["logarithmic_x"]:
+        axes.xaxis.set_major_locator(ticker.FixedLocator(sorted({x for series in all_series for x in series["x"]})))
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter(ticker.FuncFormatter(plain))
     axes.set_title(plot["title"])
     axes.set_xlabel(plot["x_label"])
     axes.set_ylabel(plot["y_label"])
     axes.grid(True, which="major", color="#dddddd")
-    if any(series["cut_off"] for series in plot["series"]):
+    if any(series["cut_off"] for series in all_series):
         axes.plot([], [], "x", markersize=10, color="black", label="ends at the time limit")
-    if len(plot["series"]) > 1:
+    if len(all_series) > 1:
         axes.legend(fontsize="small", loc="center left", bbox_to_anchor=(1.01, 0.5))
     figure.savefig(path, bbox_inches="tight", metadata={"Date": None}, facecolor="white")
     plt.close(figure)

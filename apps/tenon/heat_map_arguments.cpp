@@ -1,8 +1,8 @@
 #include "heat_map_arguments.h"
 
 #include <algorithm>
-#include <array>
 
+#include "cost_kind.h"
 #include "tenon/image/heat_map.h"
 #include "tenon/image/picture_file.h"
 
@@ -10,18 +10,9 @@ namespace tenon {
 
 namespace {
 
-struct CostName {
-  const char* name;
-  const char* title;
-  std::vector<double> CostMap::*values;
-  double scale;
-};
-constexpr std::array<CostName, 3> costs{{{"tests", "primitive tests a pixel", &CostMap::primitive_tests, 1},
-                                         {"cells", "cells visited a pixel", &CostMap::cells_visited, 1},
-                                         {"time", "microseconds a pixel", &CostMap::seconds, 1e6}}};
-
-const CostName& cost_of(const HeatMapArguments& arguments) {
-  return *std::find_if(costs.begin(), costs.end(), [&](const CostName& c) { return arguments.cost == c.name; });
+const CostKind& kind_of(const HeatMapArguments& arguments) {
+  return *std::find_if(cost_kinds.begin(), cost_kinds.end(),
+                       [&](const CostKind& kind) { return arguments.cost == kind.name; });
 }
 
 }  // namespace
@@ -53,10 +44,10 @@ int heat_map_takes(const HeatMapArguments& arguments) {
 Result<std::string> encode(const CostMap& map, const HeatMapArguments& arguments, const PicturePlan& plan,
                            const std::string& accelerator, const RenderOptions& options,
                            std::vector<PictureNote> notes) {
-  const CostName& cost = cost_of(arguments);
-  std::vector<double> values = map.*(cost.values);
-  for (double& v : values) v *= cost.scale;
-  notes.push_back({"Heatmap", std::string(cost.title) + ", " + accelerator});
+  const CostKind& kind = kind_of(arguments);
+  const std::vector<double> values = kind.values(map);
+  const std::string legend(kind.legend);
+  notes.push_back({"Heatmap", legend + ", " + accelerator});
   if (plan.format == PictureFormat::exr) {
     Picture picture{options.width, options.height, map.window, {}, std::move(notes)};
     picture.channels.push_back({"Y", ChannelType::float32, std::vector<float>(values.begin(), values.end()), {}});
@@ -66,7 +57,7 @@ Result<std::string> encode(const CostMap& map, const HeatMapArguments& arguments
                           : arguments.scale == "log"  ? HeatScale::logarithmic
                                                       : HeatScale::automatic;
   const HeatMapPicture drawn = draw_heat_map(
-      {map.window.width(), map.window.height(), values, accelerator + ": " + cost.title, scale, arguments.largest});
+      {map.window.width(), map.window.height(), values, accelerator + ": " + legend, scale, arguments.largest});
   return encode_png({drawn.width, drawn.height, drawn.rgb, {}}, plan.bits, notes);
 }
 

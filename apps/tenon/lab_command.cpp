@@ -105,7 +105,7 @@ double seconds_since(std::chrono::steady_clock::time_point begun) {
 
 LabEffort LabCommand::effort() const {
   LabEffort effort;
-  if (quick) effort = {"quick", 0.25, 3, 1e4, 0.3};
+  if (quick) effort = {"quick", 0.25, 3, 1e4, 1};
   if (scale == 1) return effort;
   effort.name += " x " + shortest(scale);
   effort.scale *= scale;

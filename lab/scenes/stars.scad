@@ -1,4 +1,4 @@
-// Stars as planar polygons of 2 n corners each, in rows: -D corners=8 -D 'method="snyder"' or "marchal".
+// Stars as planar polygons of so many corners each, in rows: -D corners=8 -D 'method="snyder"' or "marchal".
 include <../../scenes/studio.scad>
 
 corners = 8;

@@ -1,11 +1,16 @@
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <stdexcept>
 
 #include "apps/program_test.h"
 #include "lab/claim.h"
 #include "lab/page.h"
+#include "lab/ratios.h"
+#include "tenon/accel/accelerator.h"
 
 namespace tenon {
 namespace {
@@ -27,6 +32,7 @@ TEST(LabClaim, VerdictFollowsFromTheFigure) {
   EXPECT_EQ(judge(range, Measured{3, 0}).verdict, Verdict::holds);
   EXPECT_EQ(judge(range, Measured{4.1, 0}).verdict, Verdict::fails);
   EXPECT_EQ(judge(range, Measured{1.9, 0}).verdict, Verdict::fails);
+  EXPECT_EQ(judge(range, Measured{3, 0}).ratio_to_limit, std::nullopt);
   EXPECT_EQ(judge(range, Measured{5, 0}).ratio_to_limit, 5.0 / 4);
   EXPECT_EQ(judge(range, Measured{1, 0}).ratio_to_limit, 1.0 / 2);
 }
@@ -41,6 +47,20 @@ TEST(LabClaim, NoiseThatReachesOverTheLimitDecidesNothing) {
 TEST(LabClaim, WhatWasNotMeasuredIsNotComparable) {
   EXPECT_EQ(judge(at_least(2), std::nullopt).verdict, Verdict::not_comparable);
   EXPECT_EQ(judge(at_least(2), Measured{std::nan(""), 0}).verdict, Verdict::not_comparable);
+}
+
+TEST(LabRatios, MeansAndEndsKeepTheirSpreads) {
+  Ratios ratios;
+  ratios.add({2, 0.1});
+  ratios.add({8, 0.3});
+  EXPECT_NEAR(ratios.mean().value, 4, 1e-12);
+  EXPECT_NEAR(ratios.mean().spread, 0.2, 1e-12);
+  EXPECT_EQ(ratios.least().value, 2);
+  EXPECT_EQ(ratios.largest().spread, 0.3);
+  const Measured quotient = divided(Measured{8, 0.1}, Measured{2, 0.2});
+  EXPECT_EQ(quotient.value, 4);
+  EXPECT_NEAR(quotient.spread, 0.3, 1e-12);
+  EXPECT_FALSE(divided(std::optional<Measured>(), std::optional(quotient)));
 }
 
 TEST(LabPage, FiguresHaveThreeDigitsAndAUnitThatSuitsThem) {
@@ -68,6 +88,77 @@ std::size_t count_paper_figures(const Json& tables) {
   return count;
 }
 
+const Json& named(const Json& list, const char* key, const std::string& name) {
+  const auto found = std::find_if(list.begin(), list.end(), [&](const Json& item) { return item[key] == name; });
+  if (found == list.end()) throw std::out_of_range("there is no " + name);
+  return *found;
+}
+
+/// The figures of a measured table, by name.
+class Figures {
+ public:
+  Figures(const Json& tables, const std::string& table) : table_(named(tables, "table", table)) {}
+
+  std::vector<std::string> rows() const { return names(table_["rows"]); }
+  std::vector<std::string> columns() const { return names(table_["columns"]); }
+  double operator()(const std::string& row, const std::string& column) const {
+    const std::vector<std::string> all = columns();
+    const auto c = static_cast<std::size_t>(std::find(all.begin(), all.end(), column) - all.begin());
+    return named(table_["rows"], "name", row)["figures"].at(c)["value"].get<double>();
+  }
+  double claim(const std::string& id) const { return named(table_["claims"], "id", id)["measured"].get<double>(); }
+
+ private:
+  static std::vector<std::string> names(const Json& list) {
+    std::vector<std::string> all;
+    for (const Json& item : list) all.push_back(item["name"]);
+    return all;
+  }
+
+  const Json& table_;
+};
+
+// What is derived from other figures of its row, and the claims, are what they say they are. With one round the median
+// of ratios is the ratio of medians.
+void check_derived_figures(const Json& tables) {
+  const Figures gain(tables, "rr612-2"), growth(tables, "rr612-4"), levels(tables, "rr612-levels");
+  for (const std::string& row : gain.rows()) {
+    EXPECT_NEAR(gain(row, "gain factor"), gain(row, "traditional") / gain(row, "space tracing"), 1e-9) << row;
+    EXPECT_LT(gain(row, "tests a ray, space tracing"), gain(row, "tests a ray, traditional")) << row;
+  }
+  EXPECT_NEAR(gain.claim("gain-ima2"), gain("IMA2", "gain factor"), 1e-9);
+  EXPECT_NEAR(growth.claim("grows"),
+              growth("72 primitives", "traditional a ray") / growth("8 primitives", "traditional a ray"), 1e-9);
+  for (const std::string& row : levels.rows()) {
+    EXPECT_NEAR(levels(row, "sub-grids over one grid"), levels(row, "sub-grids") / levels(row, "one grid"), 1e-9);
+  }
+  const Figures turns(tables, "okd-turns"), ropes(tables, "rope-trees-2"), stadium(tables, "scaling-stadium");
+  for (const std::string& row : turns.rows()) {
+    EXPECT_NEAR(turns(row, "NBVH over OKD-tree (MSAH)"),
+                turns(row, "CSG with NBVH") / turns(row, "CSG with OKD-tree (MSAH)"), 1e-9);
+    EXPECT_TRUE(row == "1 turn" || turns.claim("turns") <= turns(row, "NBVH over OKD-tree (MSAH)"));
+  }
+  EXPECT_NEAR(ropes("Teapot, rope-trees", "speedup S1"),
+              ropes("Teapot, bsp", "render TR") / ropes("Teapot, rope-trees", "render TR") - 1, 1e-9);
+  for (const std::string& row : stadium.rows()) {
+    EXPECT_NEAR(stadium(row, "slowdown"), stadium(row, "in the stadium") / stadium(row, "alone"), 1e-9) << row;
+  }
+}
+
+// What is asked of every structure is measured for every structure, and work is what it must be.
+void check_structures(const Json& tables, const std::vector<std::string>& structures) {
+  const Figures work(tables, "work"), stadium(tables, "scaling-stadium");
+  EXPECT_EQ(work.rows(), structures);
+  EXPECT_EQ(Figures(tables, "scaling-size").columns(), structures);
+  EXPECT_EQ(Figures(tables, "scaling-overlap").columns(), structures);
+  const std::vector<std::string> in_stadium = stadium.rows();
+  for (auto s = structures.begin() + 1; s != structures.end(); ++s) {
+    EXPECT_EQ(std::count(in_stadium.begin(), in_stadium.end(), *s), 1) << *s;
+  }
+  EXPECT_EQ(named(tables, "table", "work")["pictures"].size(), 3 * structures.size());
+  for (const std::string& s : structures) EXPECT_LE(work(s, "tests a pixel"), work("none", "tests a pixel")) << s;
+}
+
 TEST_F(Lab, EveryTableHasPlausibleFiguresAndThePapersBesideThem) {
   const Outcome outcome = run({"lab", "--root", root, "--scale", "0.05", "-o", "pages", "--json", "all.json", "-q"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
@@ -79,6 +170,7 @@ TEST_F(Lab, EveryTableHasPlausibleFiguresAndThePapersBesideThem) {
     papers.insert(table["paper"]);
     EXPECT_FALSE(table["origin"]["machine"].get<std::string>().empty());
     EXPECT_FALSE(table["rows"].empty() && table["pictures"].empty()) << id;
+    for (const Json& note : table["notes"]) EXPECT_FALSE(contains(note, "took another picture")) << id << note;
     for (const Json& row : table["rows"]) {
       EXPECT_EQ(row["figures"].size(), table["columns"].size()) << id << ' ' << row["name"];
       for (std::size_t c = 0; c < row["figures"].size(); ++c) {
@@ -111,6 +203,28 @@ TEST_F(Lab, EveryTableHasPlausibleFiguresAndThePapersBesideThem) {
   EXPECT_EQ(count_paper_figures(tables), printed);
   EXPECT_EQ(claims.size(), claimed) << "a claim is not judged";
   EXPECT_TRUE(contains(read("pages/README.md"), "claims that hold"));
+  check_derived_figures(tables);
+  std::vector<std::string> structures;
+  for (const std::string_view name : accelerator_names()) structures.emplace_back(name);
+  check_structures(tables, structures);
+}
+
+TEST_F(Lab, PlotsAreDrawn) {
+  if (std::system("/usr/bin/python3 -c 'import matplotlib' 2>/dev/null") != 0) GTEST_SKIP() << "no matplotlib";
+  std::filesystem::create_directories(folder / "data");
+  write("data/t.json", R"({"plots": [{"name": "p", "title": "The title", "x_label": "x", "y_label": "y",
+      "logarithmic_x": true, "logarithmic_y": true, "series": [
+        {"name": "ends", "x": [1, 10], "y": [2, 200], "cut_off": true},
+        {"name": "goes on", "x": [1, 10, 100], "y": [3, 4, 5], "cut_off": false},
+        {"name": "has no point", "x": [], "y": [], "cut_off": false}]}]})");
+  ASSERT_EQ(std::system(("/usr/bin/python3 '" + root + "/lab/plot.py' '" + folder.string() + "'").c_str()), 0);
+  const std::string drawing = read("plots/p.svg");
+  for (const char* part : {">The title<", ">ends<", ">goes on<", ">ends at the time limit<"}) {
+    EXPECT_TRUE(contains(drawing, part)) << part;
+  }
+  EXPECT_FALSE(contains(drawing, "has no point"));
+  // The legend is in the order of the curves' ends.
+  EXPECT_LT(drawing.find(">ends<"), drawing.find(">goes on<"));
 }
 
 TEST_F(Lab, OneTableIsPrintedAsMarkdown) {
@@ -140,10 +254,12 @@ TEST_F(Lab, PapersFilesAreChecked) {
   const std::string short_row = R"({"source": "t", "rows": ["a"], "columns": ["b", "c"], "figures": [[1]]})";
   const std::string no_row = R"({"source": "t", "rows": ["a", "d"], "columns": ["b", "c"], "figures": [[1, 2]]})";
   const std::string no_limit = R"({"id": "i", "text": "t", "source": "s", "ratio": "r"})";
+  const std::string zero_limit = R"({"id": "i", "text": "t", "source": "s", "ratio": "r", "at_most": 0})";
   EXPECT_TRUE(contains(outcome_of(good, "").err, "scenes/ima1.scad"));  // the papers are read, the scenes are missing
   EXPECT_TRUE(contains(outcome_of(short_row, "").err, "another length"));
   EXPECT_TRUE(contains(outcome_of(no_row, "").err, "a row for each name"));
   EXPECT_TRUE(contains(outcome_of(good, no_limit).err, "no limit"));
+  EXPECT_TRUE(contains(outcome_of(good, zero_limit).err, "not over 0"));
   EXPECT_EQ(outcome_of("3", "").status, 1);
 }
 

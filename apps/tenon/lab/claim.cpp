@@ -13,9 +13,12 @@ JudgedClaim judge(const Claim& claim, const std::optional<Measured>& measured) {
   const double low = measured->value - margin, high = measured->value + margin;
   const auto& least = claim.at_least;
   const auto& most = claim.at_most;
-  const bool below = least && measured->value < *least;
-  const double limit = below || !most ? least.value_or(0) : *most;
-  if (limit != 0) judged.ratio_to_limit = measured->value / limit;
+  const bool below = least && measured->value < *least, above = most && measured->value > *most;
+  if (below || !most) {
+    judged.ratio_to_limit = measured->value / *least;
+  } else if (above || !least) {
+    judged.ratio_to_limit = measured->value / *most;
+  }
   if ((least && high < *least) || (most && low > *most)) {
     judged.verdict = Verdict::fails;
   } else if ((!least || low >= *least) && (!most || high <= *most)) {

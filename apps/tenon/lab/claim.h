@@ -3,6 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "lab/measured.h"
+
 namespace tenon {
 
 /// What a paper claims, in a form that figures can contradict: some ratio lies between two limits.
@@ -17,18 +19,12 @@ struct Claim {
 
 enum class Verdict { holds, fails, not_comparable };
 
-/// A measured ratio and how far it may be off, relative.
-struct Measured {
-  double value = 0;
-  double spread = 0;
-};
-
 struct JudgedClaim {
   Claim claim;
   Verdict verdict = Verdict::not_comparable;
   std::optional<double> measured;
   double spread = 0;
-  /// Of what was measured to the limit that it keeps or misses; none where there is nothing to divide.
+  /// Of what was measured to the limit that it keeps or misses; none between two limits.
   std::optional<double> ratio_to_limit;
 };
 

@@ -12,7 +12,7 @@ namespace tenon {
 struct Experiment {
   const char* id;     ///< of the table, such as "rr612-3"
   const char* paper;  ///< Paper::id; also the name of the page
-  double weight;      ///< about how many CPU seconds it takes at full effort
+  double weight;      ///< about how many seconds it takes at full effort, on two cores
   /// Fills columns, rows, plots and claims; id and paper are known.
   Status (*run)(Lab& lab, const Paper& paper, LabTable& table);
 };
@@ -24,7 +24,7 @@ Status run_rr612_scenes(Lab& lab, const Paper& paper, LabTable& table);
 Status run_rr612_gain(Lab& lab, const Paper& paper, LabTable& table);
 Status run_rr612_statistics(Lab& lab, const Paper& paper, LabTable& table);
 Status run_rr612_growth(Lab& lab, const Paper& paper, LabTable& table);
-Status run_rr612_memory(Lab& lab, const Paper& paper, LabTable& table);
+Status run_rr612_levels(Lab& lab, const Paper& paper, LabTable& table);
 Status run_rope_trees_diffuse(Lab& lab, const Paper& paper, LabTable& table);
 Status run_rope_trees_specular(Lab& lab, const Paper& paper, LabTable& table);
 Status run_course_hierarchies(Lab& lab, const Paper& paper, LabTable& table);

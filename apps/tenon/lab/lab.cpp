@@ -20,8 +20,7 @@ int Lab::side(int pixels) const {
   return std::max(16, static_cast<int>(std::lround(pixels * effort_.scale)));
 }
 
-Result<LabScene> Lab::read(const std::string& path, int width, int height,
-                           const std::vector<std::pair<std::string, std::string>>& definitions) const {
+Result<LabScene> Lab::read(const std::string& path, int width, int height, const Definitions& definitions) const {
   Diagnostics unheard;
   LoadOptions options;
   options.definitions = definitions;
@@ -29,9 +28,13 @@ Result<LabScene> Lab::read(const std::string& path, int width, int height,
   if (!model) return model.error();
   Result<Scene> scene = compile_scene(std::move(*model), unheard);
   if (!scene) return scene.error();
-  Result<CameraRays> camera = CameraRays::create(scene->camera, width, height);
+  Result<CameraRays> camera = CameraRays::create(scene->camera, side(width), side(height));
   if (!camera) return camera.error();
   return LabScene{std::move(*scene), std::move(*camera)};
+}
+
+std::string Lab::pixels(int width, int height) const {
+  return std::to_string(side(width)) + " x " + std::to_string(side(height));
 }
 
 std::string Lab::made_file(const std::string& name) const {

@@ -17,7 +17,7 @@ struct LabEffort {
   double scale = 1;           ///< of the pictures' sides
   int rounds = 5;             ///< that contenders take turns in
   double most_spheres = 1e6;  ///< of the scaling curves
-  double curve_seconds = 4;   ///< CPU seconds after which a point of a curve is its last
+  double curve_seconds = 20;  ///< CPU seconds that one point of a scaling curve may take
 };
 
 /// A scene of the lab, ready to be traced.
@@ -25,6 +25,14 @@ struct LabScene {
   Scene scene;
   CameraRays camera;
 };
+
+/// Variables of a scene and what they are set to, as `tenon -D`.
+using Definitions = std::vector<std::pair<std::string, std::string>>;
+
+/// A word as a scene's string.
+inline std::string quoted(const std::string& word) {
+  return '"' + word + '"';
+}
 
 /// What experiments are given: the scenes, the effort, and a place to say how far they are.
 class Lab {
@@ -39,10 +47,11 @@ class Lab {
   /// A side of a picture that the paper made this large.
   int side(int pixels) const;
   /// Reads a scene file of the repository.
-  /// @param path         from the root, such as "scenes/ima1.scad"
-  /// @param definitions  as `tenon -D`
-  Result<LabScene> read(const std::string& path, int width, int height,
-                        const std::vector<std::pair<std::string, std::string>>& definitions = {}) const;
+  /// @param path    from the root, such as "scenes/ima1.scad"
+  /// @param width   of the picture, as the paper took it; so is the height
+  Result<LabScene> read(const std::string& path, int width, int height, const Definitions& definitions = {}) const;
+  /// "512 x 512": what such a picture has here.
+  std::string pixels(int width, int height) const;
   /// A file that ./dev lab makes beforehand; empty where it is not there.
   std::string made_file(const std::string& name) const;
   /// The number of triangles in an OFF file.

@@ -27,9 +27,16 @@ struct LabColumn {
 /// A figure of a table.
 struct LabFigure {
   std::optional<double> value;  ///< none: there is no such figure here
-  double spread = 0;            ///< of the rounds, relative (Timing::spread); 0: counted, not timed
+  double spread = 0;            ///< of the rounds, relative (Timing::spread); 0: counted, or timed once
   std::string instead;          ///< stands where there is no value: "over the time limit"
 };
+
+inline LabFigure counted(double value) {
+  return {value, 0, ""};
+}
+inline LabFigure timed(const Measured& measured) {
+  return {measured.value, measured.spread, ""};
+}
 
 struct LabRow {
   std::string name;

@@ -112,7 +112,7 @@ std::string limit_text(const Json& claim) {
   return three_digits(least.get<double>()) + " to " + three_digits(most.get<double>());
 }
 
-// What is measured, and how it stands to the limit.
+// What was measured, and how it stands to the limit.
 std::string verdict_text(const Json& claim) {
   const std::string verdict = claim["verdict"];
   if (claim["measured"].is_null()) return verdict + ": not measured here";
@@ -209,9 +209,10 @@ std::string table_markdown(const Paper& paper, const Json& table) {
 std::string page_markdown(const Paper& paper, const std::vector<Json>& tables) {
   std::string text =
       "# " + paper.title + "\n\n" + paper.reference + ".\n\n" + paper.summary +
-      "\n\nTimes are CPU time of one thread, the median of rounds in which the contenders took turns; ± is "
-      "half of the distance between the slowest and the fastest round, from five rounds on without the "
-      "two at the ends. Made by `./dev lab`; the figures are in [data](data).\n";
+      "\n\nTimes are CPU time, of one thread where nothing else is said: the median of rounds in which the contenders "
+      "took turns. ± is half of the distance between the slowest and the fastest round, from five rounds on without "
+      "the two at the ends; figures without it were counted, or timed once. Made by `./dev lab`; the figures are in "
+      "[data](data).\n";
   for (const Json& table : tables) {
     if (table["paper"] == paper.id) text += '\n' + table_markdown(paper, table);
   }
@@ -220,22 +221,26 @@ std::string page_markdown(const Paper& paper, const std::vector<Json>& tables) {
 
 std::string index_markdown(const std::vector<Paper>& papers, const std::vector<Json>& tables) {
   std::string text =
-      "# The lab\n\nThe papers' tables, measured again by `tenon lab`, beside the papers' figures; which claims hold "
+      "# The lab\n\nThe papers' tables, measured again by `tenon lab`, beside the papers' figures. Which claims hold "
       "is "
-      "derived from the figures. `./dev lab` makes these pages.\n\n| page | claims that hold | that do not | not "
-      "comparable |\n|:--|--:|--:|--:|\n";
+      "derived from the figures: a claim is a limit on a ratio, and it holds where the whole range of the measurement "
+      "keeps it, fails where none of it does, and is not comparable in between. Why is said where it was looked into. "
+      "`./dev lab` makes these pages.\n\n| page | claims that hold | that do not | not comparable "
+      "|\n|:--|--:|--:|--:|\n";
   for (const Paper& paper : papers) {
     VerdictCounts counts = count_verdicts(tables, paper.id);
     text += "| [" + paper.title + "](" + paper.id + ".md) | " + std::to_string(counts["holds"]) + " | " +
             std::to_string(counts["does not hold"]) + " | " + std::to_string(counts["not comparable"]) + " |\n";
   }
   for (const Paper& paper : papers) {
+    if (paper.claims.empty()) continue;
     text += "\n## [" + paper.title + "](" + paper.id + ".md)\n\n";
     for (const Json& table : tables) {
       if (table["paper"] != paper.id) continue;
       for (const Json& claim : table["claims"]) {
+        const std::string why = reason(paper, claim);
         text += "* " + claim["text"].get<std::string>() + " (" + claim["source"].get<std::string>() +
-                "): " + verdict_text(claim) + '\n';
+                "): " + verdict_text(claim) + '.' + (why.empty() ? "" : ' ' + why) + '\n';
       }
     }
   }

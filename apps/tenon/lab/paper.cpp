@@ -33,6 +33,9 @@ Claim read_claim(const Json& json) {
   claim.at_least = optional_number(json.value("at_least", Json()));
   claim.at_most = optional_number(json.value("at_most", Json()));
   if (!claim.at_least && !claim.at_most) throw std::runtime_error("the claim " + claim.id + " has no limit");
+  for (const auto& limit : {claim.at_least, claim.at_most}) {
+    if (limit && !(*limit > 0)) throw std::runtime_error("the claim " + claim.id + " has a limit that is not over 0");
+  }
   claim.why_it_holds = json.value("why_it_holds", "");
   claim.why_it_fails = json.value("why_it_fails", "");
   return claim;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace tenon {
 
@@ -9,13 +10,20 @@ namespace {
 
 // Building goes on in rounds where it takes less than this.
 constexpr double quick_build_seconds = 0.3;
+// What takes less than this is built again and again until it is over: a clock and cold caches are off by microseconds.
+constexpr double shortest_round_seconds = 0.005;
 
-Result<std::unique_ptr<Accelerator>> build_once(const Contender& contender, Timing& timing) {
-  Result<std::unique_ptr<Accelerator>> built = Error{};
-  timing.seconds.push_back(cpu_seconds([&] {
-    built = build_accelerator(contender.accelerator, *contender.scene->scene.tree, &contender.scene->camera.view());
-  }));
-  return built;
+Result<std::unique_ptr<Accelerator>> build(const Contender& contender) {
+  return build_accelerator(contender.accelerator, *contender.scene->scene.tree, &contender.scene->camera.view());
+}
+
+double time_building(const Contender& contender) {
+  double seconds = 0;
+  int built = 0;
+  for (; seconds < shortest_round_seconds; ++built) {
+    seconds += cpu_seconds([&] { static_cast<void>(build(contender)); });
+  }
+  return seconds / built;
 }
 
 std::size_t count_different_pixels(const Film& a, const Film& b, double tolerance) {
@@ -30,16 +38,15 @@ std::size_t count_different_pixels(const Film& a, const Film& b, double toleranc
   return count;
 }
 
-}  // namespace
-
-int race_steps(const Lab& lab, std::size_t contenders, int rounds) {
-  return static_cast<int>(contenders) * ((rounds > 0 ? rounds : lab.effort().rounds) + 1);
+int rounds_of(const Lab& lab, int rounds) {
+  return rounds > 0 ? rounds : lab.effort().rounds;
 }
 
-Result<std::vector<RaceResult>> race(Lab& lab, const std::vector<Contender>& contenders, RenderOptions options,
-                                     int rounds) {
-  if (rounds == 0) rounds = lab.effort().rounds;
-  options.threads = 1;
+// With all structures in memory.
+Result<std::vector<RaceResult>> race_together(Lab& lab, std::span<const Contender> contenders, const RaceRules& rules) {
+  RenderOptions options = rules.options;
+  options.threads = rules.threads;
+  const int rounds = rounds_of(lab, rules.rounds);
   std::vector<RaceResult> results;
   std::vector<std::unique_ptr<Accelerator>> accelerators;
   std::vector<std::string> names;
@@ -48,17 +55,21 @@ Result<std::vector<RaceResult>> race(Lab& lab, const std::vector<Contender>& con
     RaceResult result;
     result.name = contender.name;
     result.primitives = scene_figures(contender.scene->scene).primitives;
-    Result<std::unique_ptr<Accelerator>> built = build_once(contender, result.build);
+    Result<std::unique_ptr<Accelerator>> built = Error{};
+    result.build.seconds = {cpu_seconds([&] { built = build(contender); })};
     if (!built) return built.error();
     result.figures = (*built)->figures();
     accelerators.push_back(std::move(*built));
     results.push_back(std::move(result));
   }
-  for (int round = 1; round < rounds; ++round) {
-    for (std::size_t i = 0; i < contenders.size(); ++i) {
-      if (results[i].build.seconds.front() > quick_build_seconds) continue;
-      if (const auto built = build_once(contenders[i], results[i].build); !built) return built.error();
-    }
+  std::vector<std::size_t> quick;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (results[i].build.seconds.front() > quick_build_seconds) continue;
+    results[i].build.seconds.clear();
+    quick.push_back(i);
+  }
+  for (int round = 0; round < rounds; ++round) {
+    for (const std::size_t i : quick) results[i].build.seconds.push_back(time_building(contenders[i]));
   }
   std::optional<Error> failed;
   const std::vector<Timing> timings = take_turns(names, rounds, [&](std::size_t i) {
@@ -76,19 +87,40 @@ Result<std::vector<RaceResult>> race(Lab& lab, const std::vector<Contender>& con
     return rendering->cpu_seconds;
   });
   if (failed) return *failed;
-  for (std::size_t i = 0; i < contenders.size(); ++i) {
-    results[i].render = timings[i];
-    if (contenders[i].is_approximate) continue;
-    results[i].different_pixels = count_different_pixels(results.front().picture, results[i].picture, 0);
-  }
+  for (std::size_t i = 0; i < contenders.size(); ++i) results[i].render = timings[i];
   return results;
 }
 
-void note_differences(const std::vector<RaceResult>& results, LabTable& table) {
-  for (const RaceResult& r : results) {
-    if (r.different_pixels == 0) continue;
-    table.notes.push_back(r.name + " took another picture: " + std::to_string(r.different_pixels) + " pixels differ.");
+}  // namespace
+
+std::vector<Contender> structures_over(const LabScene& scene, const std::vector<std::string>& accelerators) {
+  std::vector<Contender> contenders;
+  for (const std::string& a : accelerators) contenders.push_back({a, &scene, a});
+  return contenders;
+}
+
+int race_steps(const Lab& lab, std::size_t contenders, int rounds) {
+  return static_cast<int>(contenders) * (rounds_of(lab, rounds) + 1);
+}
+
+Result<std::vector<RaceResult>> race(Lab& lab, const std::vector<Contender>& contenders, const RaceRules& rules,
+                                     LabTable& table) {
+  const std::span<const Contender> all(contenders);
+  const std::size_t at_once = rules.together ? all.size() : 1;
+  std::vector<RaceResult> results;
+  for (std::size_t begin = 0; begin < all.size(); begin += at_once) {
+    auto part = race_together(lab, all.subspan(begin, at_once), rules);
+    if (!part) return part.error();
+    std::move(part->begin(), part->end(), std::back_inserter(results));
   }
+  for (std::size_t i = 1; i < results.size(); ++i) {
+    if (all[i].is_approximate) continue;
+    const std::size_t different = count_different_pixels(results.front().picture, results[i].picture, 0);
+    if (different == 0) continue;
+    table.notes.push_back(results[i].name + " took another picture than " + results.front().name + ": " +
+                          std::to_string(different) + " pixels differ.");
+  }
+  return results;
 }
 
 double share_of_different_pixels(const Film& a, const Film& b, double tolerance) {
@@ -101,11 +133,6 @@ Measured speedup(const RaceResult& slow, const RaceResult& fast) {
     ratios.seconds.push_back(slow.render.seconds[i] / fast.render.seconds[i]);
   }
   return {ratios.median(), ratios.spread()};
-}
-
-LabFigure speedup_figure(const RaceResult& slow, const RaceResult& fast) {
-  const Measured measured = speedup(slow, fast);
-  return {measured.value, measured.spread, ""};
 }
 
 std::optional<double> next_box_calls_a_ray(const TraversalStatistics& statistics, const std::vector<RayKind>& kinds) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "lab/claim.h"
+#include "lab/measured.h"
 #include "tenon/base/timing.h"
 
 namespace tenon {
@@ -12,13 +12,12 @@ namespace tenon {
 class Ratios {
  public:
   void add(const Measured& ratio) { all_.push_back(ratio); }
-  bool empty() const { return all_.empty(); }
 
-  /// The geometric mean, with the largest spread.
+  /// The geometric mean. Its logarithm is the mean of logarithms, so it is off by no more than the mean of the spreads.
   Measured mean() const {
     std::vector<double> values;
     double spread = 0;
-    for (const Measured& m : all_) values.push_back(m.value), spread = std::max(spread, m.spread);
+    for (const Measured& m : all_) values.push_back(m.value), spread += m.spread / static_cast<double>(all_.size());
     return {geometric_mean(values), spread};
   }
   Measured least() const { return *std::min_element(all_.begin(), all_.end(), less); }
