@@ -55,11 +55,15 @@ int main(int argc, char** argv) {
   app.add_option("--largest", options.largest_growth, "Spheres of the largest scene of `growth`")
       ->capture_default_str();
   app.add_option("--scene", options.scenes, "Of the six scenes only these")->check(CLI::IsMember(scene_names()));
+  app.add_option("--rays", options.rays, "Of the kinds of ray only these")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"primary", "shadow", "diffuse"}));
   app.add_option("--against", options.against, "`structures`: of the structures only these, on the six scenes")
       ->delimiter(',')
       ->check(CLI::IsMember(accelerator_names()));
   CLI11_PARSE(app, argc, argv);
   if (options.scenes.empty()) options.scenes = scene_names();
+  if (options.rays.empty()) options.rays = {"primary", "shadow", "diffuse"};
   for (const Part& part : parts) {
     const bool is_wanted = wanted.empty() || std::find(wanted.begin(), wanted.end(), part.name) != wanted.end();
     if (!is_wanted) continue;

@@ -69,6 +69,7 @@ class EmbreeDuel {
       }
     }
     for (const RaySet& set : sets) {
+      if (!options_.traces(set.name())) continue;
       if (Status status = trace(name, set, tracers); !status) return status;
     }
     return success();

@@ -72,7 +72,7 @@ Status compare_structures(const std::string& path, const PartOptions& options, R
     if (Status status = add(std::string(name)); !status) return status;
   }
   for (const RaySet& set : make_ray_sets(*scene, *structures.front().accelerator, small_lift(*scene))) {
-    if (set.rays.empty()) continue;
+    if (set.rays.empty() || !options.traces(set.name())) continue;
     const std::vector<Timing> timings = time_tracers(tracers, set, 1);
     double least = Box3::inf;
     for (const Timing& t : timings) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rays/report.h"
@@ -14,7 +16,10 @@ struct PartOptions {
   int threads = 1;                   ///< what "all cores" means
   int largest_growth = 1'000'000;    ///< spheres of the largest scene of `growth`
   std::vector<std::string> scenes;   ///< of scenes/bench, which every contender traces
+  std::vector<std::string> rays;     ///< kinds of ray to trace
   std::vector<std::string> against;  ///< the structures to compare with; empty: all of them, on OpenSCAD's examples too
+
+  bool traces(std::string_view kind) const { return std::find(rays.begin(), rays.end(), kind) != rays.end(); }
 };
 
 /// Tenon against Embree on meshes within a quarter of a pixel, and on bare balls.
