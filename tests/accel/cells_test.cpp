@@ -1,3 +1,5 @@
+#include <hwy/targets.h>
+
 #include "accel/battery.h"
 #include "accel/cells/cell_tree.h"
 #include "csg/expression.h"
@@ -121,6 +123,74 @@ TEST(Cells, PacketsSayWhatSingleRaysSay) {
     ASSERT_TRUE(battery::same_hit(hit, hits[i])) << battery::describe(hit) << " against " << battery::describe(hits[i]);
   }
   EXPECT_GT(found, queries.size() / 4);
+}
+
+// Rays of one kind in all directions, which are followed several at once; from free space, from what they met, along
+// axes, to an end, and from further off than single precision can tell.
+void expect_streams_say_what_single_rays_say(const CsgTree& tree, int count) {
+  const auto none = build_accelerator("none", tree), judged = build_accelerator("cells", tree);
+  const auto context = (*none)->make_context(), other = (*judged)->make_context();
+  const Box3 box = battery::extent(tree);
+  Draw draw(36);
+  std::vector<RayQuery> queries;
+  for (int i = 0; i < count; ++i) {
+    RayQuery query;
+    query.ray = {draw.in_box(grown(box, 0.2 * length(box.size()))), draw.direction()};
+    if (i % 7 == 0) query.ray.direction[i / 7 % 3] = 0;
+    if (i % 5 == 0) query.t_max = draw.real(0, length(box.size()));
+    if (i % 50 == 0) query.ray.origin = query.ray.origin - 1e6 * length(box.size()) * query.ray.direction;
+    query.kind = RayKind::diffuse;
+    queries.push_back(query);
+  }
+  std::vector<Hit> starts(queries.size());
+  for (std::size_t i = 0; i < starts.size(); ++i) starts[i] = (*none)->first_hit(queries[i], *context);
+  for (const Hit& start : starts) {
+    if (!start.found()) continue;
+    RayQuery query;
+    query.ray = {start.point, draw.direction()};
+    query.from = &start;
+    query.kind = RayKind::diffuse;
+    queries.push_back(query);
+  }
+  std::vector<Hit> hits(queries.size());
+  std::vector<RayBoundary> boundaries(queries.size());
+  std::vector<std::uint8_t> occluded(queries.size());
+  (*judged)->first_hits(queries, hits, *other);
+  (*judged)->first_boundaries(queries, boundaries, *other);
+  (*judged)->occluded(queries, occluded, *other);
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const Hit hit = (*none)->first_hit(queries[i], *context);
+    ASSERT_TRUE(battery::same_hit(hit, hits[i]))
+        << battery::describe(queries[i]) << ": " << battery::describe(hit) << " against " << battery::describe(hits[i]);
+    ASSERT_EQ(boundaries[i].found(), hit.found()) << battery::describe(queries[i]);
+    ASSERT_EQ(occluded[i] != 0, hit.found()) << battery::describe(queries[i]);
+    if (!hit.found()) continue;
+    EXPECT_EQ(boundaries[i].t, hit.t);
+    EXPECT_EQ(boundaries[i].surface, hit.surface);
+  }
+  EXPECT_EQ(other->statistics.seam_faults, 0u);
+}
+
+TEST(Cells, StreamsSayWhatSingleRaysSay) {
+  for (const gallery::Scene& scene : gallery::scenes) {
+    SCOPED_TRACE(scene.name);
+    expect_streams_say_what_single_rays_say(scene.build(), 200);
+  }
+}
+
+// The kernels are compiled for several sets of instructions; here each that this machine has is chosen once.
+TEST(Cells, EveryInstructionSetSaysTheSame) {
+  const CsgTree tree = gallery::random_scene(8, 24, 1.5);
+  for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+    const std::int64_t target = left & -left;
+    SCOPED_TRACE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().DeInit();
+    expect_streams_say_what_single_rays_say(tree, 1000);
+    expect_same_answers(tree, "cells", 20);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().DeInit();
 }
 
 // Rays that go the same way from places far apart: a block of them would open all that lies between, and is given up.

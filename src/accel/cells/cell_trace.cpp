@@ -12,38 +12,60 @@
 #include <hwy/highway.h>
 
 #include "accel/cells/block_tracer-inl.h"
+#include "accel/cells/stream_tracer-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
 
+void TraceOneByOne(SingleTracer& single, std::span<const RayQuery> queries, std::span<CellAnswer> answers,
+                   TraversalStatistics& statistics) {
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    single.Trace(queries[i], answers[i], statistics[queries[i].kind]);
+  }
+}
+
+// Fewer rays are sooner traced one by one (by trial on the bench).
+constexpr std::size_t least_batch = 8;
+
+// A function of its own, for what it keeps on the stack would be in the way of single rays.
+HWY_NOINLINE void TraceInBatches(const CellTree& cells, double tolerance, SingleTracer& single,
+                                 std::span<const RayQuery> queries, std::span<CellAnswer> answers,
+                                 TraversalStatistics& statistics) {
+  RayBatch rays;
+  BatchFindings found;
+  BlockTracer block(cells, tolerance, rays, found);
+  StreamTracer stream(cells, tolerance, rays, found);
+  const BatchAnswers finisher(cells, rays, found);
+  const bool any_will_do = single.wanted() == Wanted::occlusion;
+  for (std::size_t begin = 0; begin < queries.size();) {
+    const RayKind kind = queries[begin].kind;
+    const std::size_t most = std::min(RayBatch::most_rays, queries.size() - begin);
+    std::size_t count = 1;
+    while (count < most && queries[begin + count].kind == kind) ++count;
+    if (count < least_batch) {
+      TraceOneByOne(single, queries.subspan(begin, count), answers.subspan(begin, count), statistics);
+      begin += count;
+      continue;
+    }
+    TraversalCounters& counters = statistics[kind];
+    rays.Begin(cells, queries.subspan(begin, count));
+    found.Clear(rays);
+    const std::uint64_t left = block.Begin() ? block.Trace(any_will_do, counters) : rays.in_scene();
+    if (left != 0) stream.Trace(left, counters);
+    finisher.Write(answers.subspan(begin, count), single, counters);
+    begin += count;
+  }
+}
+
 void TraceRays(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries,
                std::span<CellAnswer> answers, Wanted wanted, CellScratch& scratch, TraversalStatistics& statistics) {
   scratch.runs.clear();
   SingleTracer single(cells, tree, scratch, wanted);
-  const auto trace_singly = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) answers[i] = single.Trace(queries[i], statistics[queries[i].kind]);
-  };
-  // Fewer rays are sooner traced one by one (by trial on the bench).
-  constexpr std::size_t least = 8;
-  if (queries.size() < least) return trace_singly(0, queries.size());
-  BlockTracer block(cells, tree.tolerance.distance);
-  // Where many do not make a block that pays, fewer of them may.
-  constexpr std::size_t few = 16;
-  std::size_t most = BlockTracer::most_rays;
-  for (std::size_t begin = 0; begin < queries.size();) {
-    std::size_t count = std::min(most, queries.size() - begin);
-    bool together = most >= least && block.Begin(queries.subspan(begin, count));
-    if (!together && count > few) {
-      count = few;
-      together = block.Begin(queries.subspan(begin, count));
-    }
-    if (!together) {
-      trace_singly(begin, begin + count);
-    } else if (!block.Trace(answers.subspan(begin, count), single, statistics)) {
-      most = most > few ? few : 1;
-    }
-    begin += count;
+  if (queries.size() < least_batch) {
+    TraceOneByOne(single, queries, answers, statistics);
+  } else {
+    TraceInBatches(cells, tree.tolerance.distance, single, queries, answers, statistics);
   }
 }
 

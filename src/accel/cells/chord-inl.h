@@ -54,19 +54,58 @@ HWY_INLINE Vec3Lanes<D> Sub3(const Vec3Lanes<D>& a, const Vec3Lanes<D>& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
 template <class D>
-HWY_INLINE Vec3Lanes<D> Broadcast(D d, const std::array<double, 3>& v) {
-  return {hn::Set(d, v[0]), hn::Set(d, v[1]), hn::Set(d, v[2])};
-}
-
-template <class D>
-HWY_INLINE Vec3Lanes<D> Apply(D, const Vec3Lanes<D>& scale, const Vec3Lanes<D>& v) {
+HWY_INLINE Vec3Lanes<D> Scale3(const Vec3Lanes<D>& scale, const Vec3Lanes<D>& v) {
   return {hn::Mul(scale.x, v.x), hn::Mul(scale.y, v.y), hn::Mul(scale.z, v.z)};
 }
-template <class D>
-HWY_INLINE Vec3Lanes<D> Apply(D d, const std::array<double, 9>& m, const Vec3Lanes<D>& v) {
-  return {Dot(Vec3Lanes<D>{hn::Set(d, m[0]), hn::Set(d, m[1]), hn::Set(d, m[2])}, v),
-          Dot(Vec3Lanes<D>{hn::Set(d, m[3]), hn::Set(d, m[4]), hn::Set(d, m[5])}, v),
-          Dot(Vec3Lanes<D>{hn::Set(d, m[6]), hn::Set(d, m[7]), hn::Set(d, m[8])}, v)};
+
+/// Numbers of one place in as many lists as there are lanes. Where gathers are slow, as on AMD's Zen 4, this is several
+/// times faster than they are.
+template <class D, class ListOf>
+HWY_INLINE hn::Vec<D> TakeEach(D d, const ListOf& list_of) {
+  HWY_ALIGN double lanes[hn::MaxLanes(D())];
+  for (std::size_t lane = 0; lane < hn::MaxLanes(D()); ++lane) lanes[lane] = list_of(lane);
+  return hn::Load(d, lanes);
+}
+
+/// The numbers of one shape, for all rays.
+template <class D, class ShapeType>
+class SharedShape {
+ public:
+  using Shape = ShapeType;
+
+  explicit SharedShape(const Shape& shape) : shape_(shape) {}
+  HWY_INLINE hn::Vec<D> Get(double Shape::*number) const { return hn::Set(D(), shape_.*number); }
+  template <std::size_t n>
+  HWY_INLINE hn::Vec<D> Get(std::array<double, n> Shape::*numbers, std::size_t i) const {
+    return hn::Set(D(), (shape_.*numbers)[i]);
+  }
+
+ private:
+  const Shape& shape_;
+};
+
+/// Those of a shape a lane, all of one kind.
+template <class D, class ShapeType>
+class LaneShapes {
+ public:
+  using Shape = ShapeType;
+
+  void Put(std::size_t lane, const Shape& shape) { shapes_[lane] = &shape; }
+  HWY_INLINE hn::Vec<D> Get(double Shape::*number) const {
+    return TakeEach(D(), [&](std::size_t lane) { return shapes_[lane]->*number; });
+  }
+  template <std::size_t n>
+  HWY_INLINE hn::Vec<D> Get(std::array<double, n> Shape::*numbers, std::size_t i) const {
+    return TakeEach(D(), [&](std::size_t lane) { return (shapes_[lane]->*numbers)[i]; });
+  }
+
+ private:
+  std::array<const Shape*, hn::MaxLanes(D())> shapes_;
+};
+
+template <class D, class Lanes, std::size_t n>
+HWY_INLINE Vec3Lanes<D> Get3(D, const Lanes& shape, std::array<double, n> Lanes::Shape::*numbers, std::size_t i = 0) {
+  return {shape.Get(numbers, i), shape.Get(numbers, i + 1), shape.Get(numbers, i + 2)};
 }
 
 /// A ray in a shape's frame; t on the world's ray is shift + t here (Placement::to_local).
@@ -76,24 +115,24 @@ struct LocalLanes {
   hn::Vec<D> shift;
 };
 
-template <class D, class Shape>
-HWY_INLINE LocalLanes<D> ToLocal(D d, const RayLanes<D>& ray, const Shape& shape, const std::array<double, 3>& center,
-                                 const std::array<double, 3>& origin, bool from_surface) {
+template <class D, class Lanes>
+HWY_INLINE LocalLanes<D> ToLocal(D d, const RayLanes<D>& ray, const Lanes& shape, const Vec3Lanes<D>& center,
+                                 const Vec3Lanes<D>& origin, bool from_surface) {
+  using Shape = typename Lanes::Shape;
   LocalLanes<D> local;
-  const Vec3Lanes<D> from_origin = Sub3(ray.origin, Broadcast(d, origin));
+  const Vec3Lanes<D> from_origin = Sub3(ray.origin, origin);
   local.shift = hn::Zero(d);
-  if (!from_surface) {
-    const auto to_center = Sub3(Broadcast(d, center), ray.origin);
-    local.shift = hn::Mul(Dot(to_center, ray.direction), ray.inverse);
-  }
+  if (!from_surface) local.shift = hn::Mul(Dot(Sub3(center, ray.origin), ray.direction), ray.inverse);
   const Vec3Lanes<D> v = MulAdd(local.shift, ray.direction, from_origin);
-  if constexpr (requires { shape.scale; }) {
-    const auto scale = Broadcast(d, shape.scale);
-    local.origin = Apply(d, scale, v);
-    local.direction = Apply(d, scale, ray.direction);
+  if constexpr (requires { &Shape::scale; }) {
+    const auto scale = Get3(d, shape, &Shape::scale);
+    local.origin = Scale3(scale, v);
+    local.direction = Scale3(scale, ray.direction);
   } else {
-    local.origin = Apply(d, shape.map, v);
-    local.direction = Apply(d, shape.map, ray.direction);
+    const Vec3Lanes<D> rows[3] = {Get3(d, shape, &Shape::map), Get3(d, shape, &Shape::map, 3),
+                                  Get3(d, shape, &Shape::map, 6)};
+    local.origin = {Dot(rows[0], v), Dot(rows[1], v), Dot(rows[2], v)};
+    local.direction = {Dot(rows[0], ray.direction), Dot(rows[1], ray.direction), Dot(rows[2], ray.direction)};
   }
   return local;
 }
@@ -143,9 +182,11 @@ HWY_INLINE void FinishChord(D d, const RayLanes<D>& ray, ChordLanes<D>& chord) {
 }
 
 /// @param on_face  the face that the ray starts on, or -1; one lane then
-template <class D, class Shape>
-HWY_INLINE ChordLanes<D> SphereChord(D d, const RayLanes<D>& ray, const Shape& shape, int on_face) {
-  const LocalLanes<D> local = ToLocal(d, ray, shape, shape.center, shape.center, on_face >= 0);
+template <class D, class Lanes>
+HWY_INLINE ChordLanes<D> SphereChord(D d, const RayLanes<D>& ray, const Lanes& shape, int on_face) {
+  using Shape = typename Lanes::Shape;
+  const auto center = Get3(d, shape, &Shape::center);
+  const LocalLanes<D> local = ToLocal(d, ray, shape, center, center, on_face >= 0);
   const auto a = Dot(local.direction, local.direction);
   ChordLanes<D> chord;
   chord.enter_face = chord.leave_face = hn::Zero(d);
@@ -158,9 +199,9 @@ HWY_INLINE ChordLanes<D> SphereChord(D d, const RayLanes<D>& ray, const Shape& s
   } else {
     const auto nearest = hn::Div(hn::Neg(Dot(local.origin, local.direction)), a);
     const auto p = MulAdd(nearest, local.direction, local.origin);
-    const auto c = hn::Sub(Dot(p, p), hn::Set(d, shape.square));
+    const auto c = hn::Sub(Dot(p, p), shape.Get(&Shape::square));
     const RootLanes<D> roots =
-        SolveQuadratic(d, a, Dot(p, local.direction), c, hn::Mul(hn::Set(d, shape.graze), ray.square));
+        SolveQuadratic(d, a, Dot(p, local.direction), c, hn::Mul(shape.Get(&Shape::graze), ray.square));
     chord.enter = hn::Add(hn::Add(roots.first, nearest), local.shift);
     chord.leave = hn::Add(hn::Add(roots.second, nearest), local.shift);
     chord.hit = roots.real;
@@ -175,11 +216,11 @@ HWY_INLINE ChordLanes<D> SphereChord(D d, const RayLanes<D>& ray, const Shape& s
 ///
 /// @param near_plane  a plane met at less than least_slope and further off than this is met beyond the scene
 template <class D>
-HWY_INLINE void ClipSlab(D d, hn::Vec<D> origin, hn::Vec<D> direction, double low, double high, double low_face,
-                         double high_face, hn::Vec<D> least_slope, double near_plane, int on_face,
+HWY_INLINE void ClipSlab(D d, hn::Vec<D> origin, hn::Vec<D> direction, hn::Vec<D> low, hn::Vec<D> high, double low_face,
+                         double high_face, hn::Vec<D> least_slope, hn::Vec<D> near_plane, int on_face,
                          ChordLanes<D>& chord) {
   const auto zero = hn::Zero(d);
-  const auto above = hn::Sub(hn::Set(d, high), origin), below = hn::Sub(hn::Set(d, low), origin);
+  const auto above = hn::Sub(high, origin), below = hn::Sub(low, origin);
   const auto steep = hn::Gt(hn::Abs(direction), least_slope);
   const auto slope = hn::IfThenElse(steep, direction, hn::Set(d, 1.0));
   auto t_high = hn::Div(above, slope), t_low = hn::Div(below, slope);
@@ -198,9 +239,8 @@ HWY_INLINE void ClipSlab(D d, hn::Vec<D> origin, hn::Vec<D> direction, double lo
 
   // Positive inside.
   const auto depth = hn::Min(above, hn::Neg(below));
-  const auto margin = hn::Set(d, near_plane);
   chord.hit = hn::And(chord.hit, hn::Or(steep, hn::Gt(depth, zero)));
-  chord.unsure = hn::Or(chord.unsure, hn::And(hn::Not(steep), hn::Not(hn::Gt(hn::Abs(depth), margin))));
+  chord.unsure = hn::Or(chord.unsure, hn::And(hn::Not(steep), hn::Not(hn::Gt(hn::Abs(depth), near_plane))));
 }
 
 template <class D>
@@ -220,55 +260,61 @@ HWY_INLINE void ShiftChord(hn::Vec<D> shift, ChordLanes<D>& chord) {
   chord.leave = hn::Add(chord.leave, shift);
 }
 
-template <class D, class Shape>
-HWY_INLINE ChordLanes<D> BoxChord(D d, const RayLanes<D>& ray, const Shape& shape, int on_face, double reach,
+template <class D, class Lanes>
+HWY_INLINE ChordLanes<D> BoxChord(D d, const RayLanes<D>& ray, const Lanes& shape, int on_face, double reach,
                                   hn::Vec<D> length) {
-  const LocalLanes<D> local = ToLocal(d, ray, shape, shape.center, shape.origin, on_face >= 0);
+  using Shape = typename Lanes::Shape;
+  const LocalLanes<D> local =
+      ToLocal(d, ray, shape, Get3(d, shape, &Shape::center), Get3(d, shape, &Shape::origin), on_face >= 0);
   ChordLanes<D> chord = WholeLine(d);
   const hn::Vec<D> origin[3] = {local.origin.x, local.origin.y, local.origin.z};
   const hn::Vec<D> direction[3] = {local.direction.x, local.direction.y, local.direction.z};
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    const double slope = shape.least_slope[i];
-    ClipSlab(d, origin[i], direction[i], shape.low[i], shape.high[i], 2 * axis, 2 * axis + 1,
-             hn::Mul(hn::Set(d, slope), length), 16 * reach * slope, on_face, chord);
+    const auto slope = shape.Get(&Shape::least_slope, i);
+    ClipSlab(d, origin[i], direction[i], shape.Get(&Shape::low, i), shape.Get(&Shape::high, i), 2 * axis, 2 * axis + 1,
+             hn::Mul(slope, length), hn::Mul(hn::Set(d, 16 * reach), slope), on_face, chord);
   }
   ShiftChord<D>(local.shift, chord);
   FinishChord(d, ray, chord);
   return chord;
 }
 
-template <class D>
-HWY_INLINE ChordLanes<D> CylinderChord(D d, const RayLanes<D>& ray, const PlacedCylinder& shape, int on_face,
-                                       double reach, hn::Vec<D> length) {
+template <class D, class Lanes>
+HWY_INLINE ChordLanes<D> CylinderChord(D d, const RayLanes<D>& ray, const Lanes& shape, int on_face, double reach,
+                                       hn::Vec<D> length) {
+  using Shape = typename Lanes::Shape;
   enum Face { side, bottom, top };
-  const LocalLanes<D> local = ToLocal(d, ray, shape, shape.center, shape.origin, on_face >= 0);
+  const LocalLanes<D> local =
+      ToLocal(d, ray, shape, Get3(d, shape, &Shape::center), Get3(d, shape, &Shape::origin), on_face >= 0);
   ChordLanes<D> chord = WholeLine(d);
-  ClipSlab(d, local.origin.z, local.direction.z, shape.low, shape.high, bottom, top,
-           hn::Mul(hn::Set(d, shape.least_slope), length), 16 * reach * shape.least_slope, on_face, chord);
+  const auto slope = shape.Get(&Shape::least_slope);
+  const auto low = shape.Get(&Shape::low), high = shape.Get(&Shape::high);
+  ClipSlab(d, local.origin.z, local.direction.z, low, high, bottom, top, hn::Mul(slope, length),
+           hn::Mul(hn::Set(d, 16 * reach), slope), on_face, chord);
 
   const auto zero = hn::Zero(d);
   const Vec3Lanes<D> o{local.origin.x, local.origin.y, zero}, v{local.direction.x, local.direction.y, zero};
   const auto quadratic = Dot(v, v);
-  const auto slanted = hn::Gt(quadratic, hn::Mul(hn::Set(d, shape.parallel), ray.square));
+  const auto slanted = hn::Gt(quadratic, hn::Mul(shape.Get(&Shape::parallel), ray.square));
   const auto a = hn::IfThenElse(slanted, quadratic, hn::Set(d, 1.0));
   RootLanes<D> roots;
   auto nearest = zero;
   if (on_face == side) {
     roots = SolveFromSurface(d, a, Dot(o, v));
-    const auto certain = hn::Gt(quadratic, hn::Mul(hn::Set(d, shape.start), ray.square));
+    const auto certain = hn::Gt(quadratic, hn::Mul(shape.Get(&Shape::start), ray.square));
     roots.unsure = hn::Or(roots.unsure, hn::Not(hn::And(slanted, certain)));
   } else {
     nearest = hn::Div(hn::Neg(Dot(o, v)), a);
     const auto p = MulAdd(nearest, v, o);
-    const auto c = hn::Sub(Dot(p, p), hn::Set(d, shape.square));
-    roots = SolveQuadratic(d, a, Dot(p, v), c, hn::Mul(hn::Set(d, shape.graze), ray.square));
+    const auto c = hn::Sub(Dot(p, p), shape.Get(&Shape::square));
+    roots = SolveQuadratic(d, a, Dot(p, v), c, hn::Mul(shape.Get(&Shape::graze), ray.square));
     // Parallel to the axis, as far as the caps: the whole line is on one side.
     const auto across = Dot(o, o);
-    const auto inside = hn::Lt(across, hn::Set(d, shape.surely_inside));
-    const auto outside = hn::Gt(across, hn::Set(d, shape.surely_outside));
-    const auto height = hn::Set(d, shape.high - shape.low);
-    const auto middle = hn::Set(d, 0.5 * (shape.low + shape.high));
+    const auto inside = hn::Lt(across, shape.Get(&Shape::surely_inside));
+    const auto outside = hn::Gt(across, shape.Get(&Shape::surely_outside));
+    const auto height = hn::Sub(high, low);
+    const auto middle = hn::Mul(hn::Set(d, 0.5), hn::Add(low, high));
     const auto aside = hn::Gt(hn::Abs(hn::Sub(local.origin.z, middle)), hn::Mul(hn::Set(d, 2.0), height));
     const auto whole_unsure = hn::Or(aside, hn::Not(hn::Or(inside, outside)));
     roots.unsure = hn::Or(hn::And(slanted, roots.unsure), hn::AndNot(slanted, whole_unsure));
@@ -289,27 +335,37 @@ HWY_INLINE ChordLanes<D> CylinderChord(D d, const RayLanes<D>& ray, const Placed
 }
 
 /// The chord of any shape but a general one.
+/// @param take    called with a list of shapes of one kind: that shape, or those, of it
 /// @param length  of the rays' directions
-template <class D>
-HWY_INLINE ChordLanes<D> FindChord(D d, const RayLanes<D>& ray, const PlacedShapes& shapes, ShapeRef shape, int on_face,
-                                   double reach, hn::Vec<D> length) {
-  switch (shape.kind()) {
+template <class D, class Take>
+HWY_INLINE ChordLanes<D> FindChord(D d, const RayLanes<D>& ray, const PlacedShapes& shapes, ShapeKind kind,
+                                   const Take& take, int on_face, double reach, hn::Vec<D> length) {
+  switch (kind) {
     case ShapeKind::upright_sphere:
-      return SphereChord(d, ray, shapes.upright_spheres[shape.index()], on_face);
+      return SphereChord(d, ray, take(shapes.upright_spheres), on_face);
     case ShapeKind::sphere:
-      return SphereChord(d, ray, shapes.spheres[shape.index()], on_face);
+      return SphereChord(d, ray, take(shapes.spheres), on_face);
     case ShapeKind::upright_box:
-      return BoxChord(d, ray, shapes.upright_boxes[shape.index()], on_face, reach, length);
+      return BoxChord(d, ray, take(shapes.upright_boxes), on_face, reach, length);
     case ShapeKind::box:
-      return BoxChord(d, ray, shapes.boxes[shape.index()], on_face, reach, length);
+      return BoxChord(d, ray, take(shapes.boxes), on_face, reach, length);
     case ShapeKind::cylinder:
-      return CylinderChord(d, ray, shapes.cylinders[shape.index()], on_face, reach, length);
+      return CylinderChord(d, ray, take(shapes.cylinders), on_face, reach, length);
     case ShapeKind::general:
       break;
   }
   ChordLanes<D> unknown = WholeLine(d);
   unknown.unsure = unknown.hit;
   return unknown;
+}
+
+template <class D>
+HWY_INLINE ChordLanes<D> FindChord(D d, const RayLanes<D>& ray, const PlacedShapes& shapes, ShapeRef shape, int on_face,
+                                   double reach, hn::Vec<D> length) {
+  const auto take = [&]<class Shape>(const std::vector<Shape>& list) {
+    return SharedShape<D, Shape>(list[shape.index()]);
+  };
+  return FindChord(d, ray, shapes, shape.kind(), take, on_face, reach, length);
 }
 
 }  // namespace HWY_NAMESPACE

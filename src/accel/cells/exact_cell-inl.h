@@ -23,25 +23,31 @@ using One = hn::CappedTag<double, 1>;
 
 enum class Outcome { passed, met, unsure };
 
+/// How long a ray's direction is.
+struct RayScale {
+  double square = 1, inverse_square = 1, length = 1;
+};
+
 /// Follows one ray through one cell after another, exactly. Here t is that of the ray as it was asked.
 class ExactCell {
  public:
   ExactCell(const CellTree& cells, const CsgTree& tree, CellScratch& scratch)
       : cells_(cells), tree_(tree), scratch_(scratch) {}
 
-  /// Begins a new ray. @param square of the length of its direction
-  void Begin(const RayQuery& query, double square) {
+  /// Begins a new ray.
+  /// @param resolution, together  CellScale::resolution and the scene's tolerance along the ray
+  void Begin(const RayQuery& query, const RayScale& scale, double resolution, double together) {
     query_ = &query;
     ++scratch_.ray;
-    length_ = std::sqrt(square);
-    resolution_ = cells_.scale.resolution / length_;
-    together_ = tree_.tolerance.distance / length_;
+    length_ = scale.length;
+    resolution_ = resolution;
+    together_ = together;
     const One one;
     const Vec3 &o = query.ray.origin, &d = query.ray.direction;
     ray_.origin = {hn::Set(one, o.x), hn::Set(one, o.y), hn::Set(one, o.z)};
     ray_.direction = {hn::Set(one, d.x), hn::Set(one, d.y), hn::Set(one, d.z)};
-    ray_.square = hn::Set(one, square);
-    ray_.inverse = hn::Set(one, 1 / square);
+    ray_.square = hn::Set(one, scale.square);
+    ray_.inverse = hn::Set(one, scale.inverse_square);
     ray_.resolution = hn::Set(one, resolution_);
   }
 
@@ -208,7 +214,7 @@ class ExactCell {
   double length_ = 1;
   double resolution_ = 0;
   double together_ = 0;
-  RayLanes<One> ray_{};
+  RayLanes<One> ray_;
   std::uint64_t tests_ = 0;
 };
 

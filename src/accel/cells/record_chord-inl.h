@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <type_traits>
+
 #include "accel/cells/scene_rays-inl.h"
 #include "accel/cells/torus_stretch-inl.h"
 
@@ -17,13 +19,13 @@ namespace tenon::cells {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <class D>
-HWY_INLINE Stretch<D> BallStretch(D d, const SceneRays<D>& ray, const double* r) {
-  const auto from = Sub3(ray.origin, Load3(d, r + BallRecord::center));
+template <class D, class Record>
+HWY_INLINE Stretch<D> BallStretch(D d, const SceneRays<D>& ray, const Record& r) {
+  const auto from = Sub3(ray.origin, Load3(d, r, BallRecord::center));
   const auto nearest = hn::Neg(hn::Mul(Dot(from, ray.direction), ray.inverse_square));
   const auto p = MulAdd(nearest, ray.direction, from);
-  const auto square = hn::Sub(hn::Set(d, r[BallRecord::square]), Dot(p, p));
-  const auto graze = hn::Set(d, r[BallRecord::graze]);
+  const auto square = hn::Sub(r[BallRecord::square], Dot(p, p));
+  const auto graze = r[BallRecord::graze];
   const auto half = hn::Sqrt(hn::Mul(hn::Max(square, graze), ray.inverse_square));
   return {hn::Sub(nearest, half), hn::Add(nearest, half), hn::Gt(square, graze), hn::Le(hn::Abs(square), graze)};
 }
@@ -31,17 +33,17 @@ HWY_INLINE Stretch<D> BallStretch(D d, const SceneRays<D>& ray, const double* r)
 /// A ray nearly parallel to a face is not sure of it unless the face is too far off to be met in the scene: 16 reach
 /// times the least slope.
 template <class D>
-HWY_INLINE hn::Mask<D> DoubtFlat(D d, hn::Vec<D> slope, hn::Vec<D> length, double least, double reach,
+HWY_INLINE hn::Mask<D> DoubtFlat(D d, hn::Vec<D> slope, hn::Vec<D> length, hn::Vec<D> least, double reach,
                                  hn::Vec<D> distance) {
-  const auto flat = hn::Le(hn::Abs(slope), hn::Mul(hn::Set(d, least), length));
-  return hn::And(flat, hn::Le(hn::Abs(distance), hn::Set(d, 16 * reach * least)));
+  const auto flat = hn::Le(hn::Abs(slope), hn::Mul(least, length));
+  return hn::And(flat, hn::Le(hn::Abs(distance), hn::Mul(hn::Set(d, 16 * reach), least)));
 }
 
 /// Along one axis of the world.
 template <class D>
-HWY_INLINE void ClipAligned(D d, hn::Vec<D> origin, hn::Vec<D> slowness, double low, double high, Stretch<D>& s) {
-  const auto a = hn::Mul(hn::Sub(hn::Set(d, low), origin), slowness);
-  const auto b = hn::Mul(hn::Sub(hn::Set(d, high), origin), slowness);
+HWY_INLINE void ClipAligned(D, hn::Vec<D> origin, hn::Vec<D> slowness, hn::Vec<D> low, hn::Vec<D> high, Stretch<D>& s) {
+  const auto a = hn::Mul(hn::Sub(low, origin), slowness);
+  const auto b = hn::Mul(hn::Sub(high, origin), slowness);
   s.enter = hn::Max(s.enter, hn::Min(a, b));
   s.leave = hn::Min(s.leave, hn::Max(a, b));
 }
@@ -53,21 +55,22 @@ HWY_INLINE Stretch<D> WholeStretch(D d) {
   return {hn::Neg(infinity), infinity, all, hn::Not(all)};
 }
 
-template <class D>
-HWY_INLINE Stretch<D> AlignedBoxStretch(D d, const SceneRays<D>& ray, const double* r, double least, double reach) {
+template <class D, class Record>
+HWY_INLINE Stretch<D> AlignedBoxStretch(D d, const SceneRays<D>& ray, const Record& r, double least, double reach) {
   Stretch<D> s = WholeStretch(d);
-  const double *low = r + AlignedBoxRecord::low, *high = r + AlignedBoxRecord::high;
-  ClipAligned(d, ray.origin.x, ray.slowness.x, low[0], high[0], s);
-  ClipAligned(d, ray.origin.y, ray.slowness.y, low[1], high[1], s);
-  ClipAligned(d, ray.origin.z, ray.slowness.z, low[2], high[2], s);
+  const Vec3Lanes<D> low = Load3(d, r, AlignedBoxRecord::low), high = Load3(d, r, AlignedBoxRecord::high);
+  ClipAligned(d, ray.origin.x, ray.slowness.x, low.x, high.x, s);
+  ClipAligned(d, ray.origin.y, ray.slowness.y, low.y, high.y, s);
+  ClipAligned(d, ray.origin.z, ray.slowness.z, low.z, high.z, s);
   if (HWY_UNLIKELY(ray.flat)) {
-    const hn::Vec<D> origin[3] = {ray.origin.x, ray.origin.y, ray.origin.z};
-    const hn::Vec<D> direction[3] = {ray.direction.x, ray.direction.y, ray.direction.z};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (const double end : {low[axis], high[axis]}) {
-        const auto distance = hn::Sub(hn::Set(d, end), origin[axis]);
-        s.unsure = hn::Or(s.unsure, DoubtFlat(d, direction[axis], ray.length, least, reach, distance));
-      }
+    const auto doubt = [&](hn::Vec<D> origin, hn::Vec<D> slope, hn::Vec<D> end) {
+      const auto distance = hn::Sub(end, origin);
+      s.unsure = hn::Or(s.unsure, DoubtFlat(d, slope, ray.length, hn::Set(d, least), reach, distance));
+    };
+    for (const Vec3Lanes<D>& ends : {low, high}) {
+      doubt(ray.origin.x, ray.direction.x, ends.x);
+      doubt(ray.origin.y, ray.direction.y, ends.y);
+      doubt(ray.origin.z, ray.direction.z, ends.z);
     }
   }
   DoubtShort(d, ray, s);
@@ -81,38 +84,39 @@ HWY_INLINE hn::Vec<D> Slowness(D d, hn::Vec<D> x) {
   return hn::Max(hn::Min(hn::Div(hn::Set(d, 1.0), x), most), hn::Neg(most));
 }
 
-template <class D>
-HWY_INLINE Stretch<D> BoxStretch(D d, const SceneRays<D>& ray, const double* r, double reach) {
-  const auto o = Map3(d, r + BoxRecord::map, Sub3(ray.origin, Load3(d, r + BoxRecord::center)));
-  const auto v = Map3(d, r + BoxRecord::map, ray.direction);
+template <class D, class Record>
+HWY_INLINE Stretch<D> BoxStretch(D d, const SceneRays<D>& ray, const Record& r, double reach) {
+  const auto o = Map3(d, r, BoxRecord::map, Sub3(ray.origin, Load3(d, r, BoxRecord::center)));
+  const auto v = Map3(d, r, BoxRecord::map, ray.direction);
   Stretch<D> s = WholeStretch(d);
+  const auto one = hn::Set(d, 1.0), minus_one = hn::Set(d, -1.0);
   const hn::Vec<D> origin[3] = {o.x, o.y, o.z}, direction[3] = {v.x, v.y, v.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    ClipAligned(d, origin[axis], Slowness(d, direction[axis]), -1, 1, s);
-    const double least = r[BoxRecord::least + axis];
-    const auto distance = hn::Abs(hn::Sub(hn::Abs(origin[axis]), hn::Set(d, 1.0)));
-    s.unsure = hn::Or(s.unsure, DoubtFlat(d, direction[axis], ray.length, least, reach, distance));
+    ClipAligned(d, origin[axis], Slowness(d, direction[axis]), minus_one, one, s);
+    const auto distance = hn::Abs(hn::Sub(hn::Abs(origin[axis]), one));
+    s.unsure = hn::Or(s.unsure, DoubtFlat(d, direction[axis], ray.length, r[BoxRecord::least + axis], reach, distance));
   }
   DoubtShort(d, ray, s);
   return s;
 }
 
 /// What of the line o + t v lies within the side of a solid of revolution, cut from the part between the caps, `s`.
-template <class D>
-HWY_INLINE void ClipSide(D d, const SceneRays<D>& ray, const Vec3Lanes<D>& o, const Vec3Lanes<D>& v, const double* p,
-                         Stretch<D>& s) {
+/// @param p  where its ProfileRecord stands in the record
+template <class D, class Record>
+HWY_INLINE void ClipSide(D d, const SceneRays<D>& ray, const Vec3Lanes<D>& o, const Vec3Lanes<D>& v, const Record& r,
+                         std::size_t p, Stretch<D>& s) {
   const auto zero = hn::Zero(d);
-  const auto beta = hn::Set(d, p[ProfileRecord::beta]), gamma = hn::Set(d, p[ProfileRecord::gamma]);
+  const auto beta = r[p + ProfileRecord::beta], gamma = r[p + ProfileRecord::gamma];
   const auto across = hn::Add(hn::Mul(v.x, v.x), hn::Mul(v.y, v.y));
   const auto across_square = hn::Add(hn::Mul(o.x, o.x), hn::Mul(o.y, o.y));
   const auto gz = hn::Mul(gamma, o.z);
   const auto a = hn::Sub(across, hn::Mul(hn::Mul(gamma, v.z), v.z));
   const auto b =
       hn::Sub(hn::Add(hn::Mul(o.x, v.x), hn::Mul(o.y, v.y)), hn::Mul(hn::Add(hn::Mul(hn::Set(d, 0.5), beta), gz), v.z));
-  const auto c = hn::Sub(across_square, hn::Add(hn::Set(d, p[ProfileRecord::alpha]), hn::Mul(hn::Add(beta, gz), o.z)));
+  const auto c = hn::Sub(across_square, hn::Add(r[p + ProfileRecord::alpha], hn::Mul(hn::Add(beta, gz), o.z)));
   const auto discriminant = hn::Sub(hn::Mul(b, b), hn::Mul(a, c));
   const auto square = hn::Mul(ray.length, ray.length);
-  const auto graze = hn::Mul(hn::Set(d, p[ProfileRecord::graze]), square);
+  const auto graze = hn::Mul(r[p + ProfileRecord::graze], square);
   auto unsure = hn::Le(hn::Abs(discriminant), graze);
   const auto real = hn::Gt(discriminant, graze);
   const auto root = hn::Sqrt(hn::Max(discriminant, graze));
@@ -121,35 +125,33 @@ HWY_INLINE void ClipSide(D d, const SceneRays<D>& ray, const Vec3Lanes<D>& o, co
   const auto first = hn::Min(near, far), second = hn::Max(near, far);
   auto enter = hn::Max(s.enter, first), leave = hn::Min(s.leave, second);
   auto hit = real;
-  if (p[ProfileRecord::gamma] > 0) {
-    // Steeper than the side: outside between the roots, or inside all along.
-    const auto steep = hn::Lt(a, zero);
-    if (!hn::AllFalse(d, steep)) {
-      const auto before = hn::Min(s.leave, first), after = hn::Max(s.enter, second);
-      const auto least = ShortestStretch(d, ray);
-      const auto width_before = hn::Sub(before, s.enter), width_after = hn::Sub(s.leave, after);
-      const auto meets_before = hn::Gt(width_before, zero), meets_after = hn::Gt(width_after, zero);
-      const auto parts = hn::And(steep, real);
-      const auto doubtful = hn::Or(hn::And(meets_before, meets_after),
-                                   hn::Or(hn::Le(hn::Abs(width_before), least), hn::Le(hn::Abs(width_after), least)));
-      unsure = hn::Or(unsure, hn::And(parts, doubtful));
-      hit = Choose(steep, hn::Or(hn::Not(real), hn::Or(meets_before, meets_after)), hit);
-      const auto whole = hn::AndNot(real, steep);
-      const auto later = hn::AndNot(meets_before, parts), sooner = hn::And(meets_before, parts);
-      enter = hn::IfThenElse(hn::Or(whole, sooner), s.enter, hn::IfThenElse(later, after, enter));
-      leave = hn::IfThenElse(hn::Or(whole, later), s.leave, hn::IfThenElse(sooner, before, leave));
-    }
-  } else if (p[ProfileRecord::parallel] > 0) {
-    // Along the axis, as far as the caps: the whole line is on one side.
-    const auto parallel = hn::Le(across, hn::Mul(hn::Set(d, p[ProfileRecord::parallel]), square));
-    if (!hn::AllFalse(d, parallel)) {
-      const auto inside = hn::Lt(across_square, hn::Set(d, p[ProfileRecord::inside]));
-      const auto outside = hn::Gt(across_square, hn::Set(d, p[ProfileRecord::outside]));
-      enter = hn::IfThenElse(parallel, s.enter, enter);
-      leave = hn::IfThenElse(parallel, s.leave, leave);
-      hit = Choose(parallel, inside, hit);
-      unsure = Choose(parallel, hn::Not(hn::Or(inside, outside)), unsure);
-    }
+  // Steeper than the side, which widens: outside between the roots, or inside all along.
+  const auto steep = hn::Lt(a, zero);
+  if (HWY_UNLIKELY(!hn::AllFalse(d, steep))) {
+    const auto before = hn::Min(s.leave, first), after = hn::Max(s.enter, second);
+    const auto least = ShortestStretch(d, ray);
+    const auto width_before = hn::Sub(before, s.enter), width_after = hn::Sub(s.leave, after);
+    const auto meets_before = hn::Gt(width_before, zero), meets_after = hn::Gt(width_after, zero);
+    const auto parts = hn::And(steep, real);
+    const auto doubtful = hn::Or(hn::And(meets_before, meets_after),
+                                 hn::Or(hn::Le(hn::Abs(width_before), least), hn::Le(hn::Abs(width_after), least)));
+    unsure = hn::Or(unsure, hn::And(parts, doubtful));
+    hit = Choose(steep, hn::Or(hn::Not(real), hn::Or(meets_before, meets_after)), hit);
+    const auto whole = hn::AndNot(real, steep);
+    const auto later = hn::AndNot(meets_before, parts), sooner = hn::And(meets_before, parts);
+    enter = hn::IfThenElse(hn::Or(whole, sooner), s.enter, hn::IfThenElse(later, after, enter));
+    leave = hn::IfThenElse(hn::Or(whole, later), s.leave, hn::IfThenElse(sooner, before, leave));
+  }
+  // Along the axis of a side that does not widen, as far as the caps: the whole line is on one side.
+  const auto share = r[p + ProfileRecord::parallel];
+  const auto parallel = hn::And(hn::Le(across, hn::Mul(share, square)), hn::Gt(share, zero));
+  if (HWY_UNLIKELY(!hn::AllFalse(d, parallel))) {
+    const auto inside = hn::Lt(across_square, r[p + ProfileRecord::inside]);
+    const auto outside = hn::Gt(across_square, r[p + ProfileRecord::outside]);
+    enter = hn::IfThenElse(parallel, s.enter, enter);
+    leave = hn::IfThenElse(parallel, s.leave, leave);
+    hit = Choose(parallel, inside, hit);
+    unsure = Choose(parallel, hn::Not(hn::Or(inside, outside)), unsure);
   }
   s.enter = enter;
   s.leave = leave;
@@ -164,46 +166,48 @@ HWY_INLINE void FinishStretch(D d, const SceneRays<D>& ray, hn::Vec<D> shift, St
   DoubtShort(d, ray, s);
 }
 
-template <class D>
-HWY_INLINE Stretch<D> UprightStretch(D d, const SceneRays<D>& ray, const double* r, double least, double reach) {
+template <class D, class Record>
+HWY_INLINE Stretch<D> UprightStretch(D d, const SceneRays<D>& ray, const Record& r, double least, double reach) {
   Vec3Lanes<D> o;
-  const auto shift = Approach(ray, Sub3(ray.origin, Load3(d, r + UprightRecord::center)), o);
-  const double* p = r + UprightRecord::profile;
+  const auto shift = Approach(ray, Sub3(ray.origin, Load3(d, r, UprightRecord::center)), o);
+  constexpr std::size_t p = UprightRecord::profile;
   Stretch<D> s = WholeStretch(d);
-  ClipAligned(d, o.z, ray.slowness.z, p[ProfileRecord::low], p[ProfileRecord::high], s);
+  const auto high = r[p + ProfileRecord::high];
+  ClipAligned(d, o.z, ray.slowness.z, r[p + ProfileRecord::low], high, s);
   if (HWY_UNLIKELY(ray.flat)) {
-    const auto distance = hn::Sub(hn::Abs(o.z), hn::Set(d, p[ProfileRecord::high]));
-    s.unsure = DoubtFlat(d, ray.direction.z, ray.length, least, reach, distance);
+    const auto distance = hn::Sub(hn::Abs(o.z), high);
+    s.unsure = DoubtFlat(d, ray.direction.z, ray.length, hn::Set(d, least), reach, distance);
   }
-  ClipSide(d, ray, o, ray.direction, p, s);
+  ClipSide(d, ray, o, ray.direction, r, p, s);
   FinishStretch(d, ray, shift, s);
   return s;
 }
 
-template <class D>
-HWY_INLINE Stretch<D> FrustumStretch(D d, const SceneRays<D>& ray, const double* r, double reach) {
+template <class D, class Record>
+HWY_INLINE Stretch<D> FrustumStretch(D d, const SceneRays<D>& ray, const Record& r, double reach) {
   Vec3Lanes<D> place;
-  const auto shift = Approach(ray, Sub3(ray.origin, Load3(d, r + FrustumRecord::center)), place);
-  const auto o = Map3(d, r + FrustumRecord::map, place), v = Map3(d, r + FrustumRecord::map, ray.direction);
-  const double* p = r + FrustumRecord::profile;
+  const auto shift = Approach(ray, Sub3(ray.origin, Load3(d, r, FrustumRecord::center)), place);
+  const auto o = Map3(d, r, FrustumRecord::map, place), v = Map3(d, r, FrustumRecord::map, ray.direction);
+  constexpr std::size_t p = FrustumRecord::profile;
   Stretch<D> s = WholeStretch(d);
-  ClipAligned(d, o.z, Slowness(d, v.z), p[ProfileRecord::low], p[ProfileRecord::high], s);
-  const auto distance = hn::Sub(hn::Abs(o.z), hn::Set(d, p[ProfileRecord::high]));
+  const auto high = r[p + ProfileRecord::high];
+  ClipAligned(d, o.z, Slowness(d, v.z), r[p + ProfileRecord::low], high, s);
+  const auto distance = hn::Sub(hn::Abs(o.z), high);
   s.unsure = DoubtFlat(d, v.z, ray.length, r[FrustumRecord::least], reach, distance);
-  ClipSide(d, ray, o, v, p, s);
+  ClipSide(d, ray, o, v, r, p, s);
   FinishStretch(d, ray, shift, s);
   return s;
 }
 
 template <class D>
-HWY_INLINE Stretch<D> ConvexStretch(D d, const SceneRays<D>& ray, const double* r, double reach) {
+HWY_INLINE Stretch<D> ConvexStretch(D d, const SceneRays<D>& ray, const SharedRecord<D>& r, double reach) {
   Stretch<D> s = WholeStretch(d);
   const auto zero = hn::Zero(d);
-  const double* plane = r + ConvexRecord::planes;
-  for (auto left = static_cast<std::size_t>(r[ConvexRecord::count]); left > 0; --left) {
-    const auto n = Load3(d, plane);
+  std::size_t plane = ConvexRecord::planes;
+  for (auto left = static_cast<std::size_t>(r.values[ConvexRecord::count]); left > 0; --left) {
+    const auto n = Load3(d, r, plane);
     const auto slope = Dot(n, ray.direction);
-    const auto distance = hn::Sub(hn::Set(d, plane[3]), Dot(n, ray.origin));
+    const auto distance = hn::Sub(r[plane + 3], Dot(n, ray.origin));
     const auto slowness = Slowness(d, slope);
     const auto t = hn::Mul(distance, slowness);
     const auto leaves = hn::Gt(slowness, zero);  // a slope of -0 has the sign of its inverse
@@ -217,25 +221,27 @@ HWY_INLINE Stretch<D> ConvexStretch(D d, const SceneRays<D>& ray, const double* 
 }
 
 /// The stretch of any record.
+/// @param kind         of the record, or the records
 /// @param t_in, t_out  the part of each ray that matters: crossings elsewhere may be left out
 /// @param lanes        the rays that matter
-template <class D>
-HWY_INLINE Stretch<D> FindStretch(D d, const SceneRays<D>& ray, const LeafRecords& records, RecordRef ref, double reach,
-                                  hn::Vec<D> t_in, hn::Vec<D> t_out, hn::Mask<D> lanes) {
-  const double* r = records.values(ref);
-  switch (ref.kind()) {
+template <class D, class Record>
+HWY_INLINE Stretch<D> FindStretch(D d, const SceneRays<D>& ray, RecordKind kind, const Record& r, double least_slope,
+                                  double reach, hn::Vec<D> t_in, hn::Vec<D> t_out, hn::Mask<D> lanes) {
+  switch (kind) {
     case RecordKind::ball:
       return BallStretch(d, ray, r);
     case RecordKind::aligned_box:
-      return AlignedBoxStretch(d, ray, r, records.least_slope, reach);
+      return AlignedBoxStretch(d, ray, r, least_slope, reach);
     case RecordKind::box:
       return BoxStretch(d, ray, r, reach);
     case RecordKind::upright:
-      return UprightStretch(d, ray, r, records.least_slope, reach);
+      return UprightStretch(d, ray, r, least_slope, reach);
     case RecordKind::frustum:
       return FrustumStretch(d, ray, r, reach);
     case RecordKind::convex:
-      return ConvexStretch(d, ray, r, reach);
+      // Each has planes of its own number.
+      if constexpr (std::is_same_v<Record, SharedRecord<D>>) return ConvexStretch(d, ray, r, reach);
+      break;
     case RecordKind::torus:
       return TorusStretch(d, ray, r, t_in, t_out, lanes);
     case RecordKind::general:
@@ -244,6 +250,13 @@ HWY_INLINE Stretch<D> FindStretch(D d, const SceneRays<D>& ray, const LeafRecord
   Stretch<D> none = WholeStretch(d);
   none.unsure = none.hit;
   return none;
+}
+
+template <class D>
+HWY_INLINE Stretch<D> FindStretch(D d, const SceneRays<D>& ray, const LeafRecords& records, RecordRef ref, double reach,
+                                  hn::Vec<D> t_in, hn::Vec<D> t_out, hn::Mask<D> lanes) {
+  return FindStretch(d, ray, ref.kind(), SharedRecord<D>{records.values(ref)}, records.least_slope, reach, t_in, t_out,
+                     lanes);
 }
 
 }  // namespace HWY_NAMESPACE

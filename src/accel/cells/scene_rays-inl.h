@@ -35,13 +35,31 @@ struct Stretch {
   hn::Mask<D> hit, unsure;
 };
 
+/// The numbers of one record, for all rays.
 template <class D>
-HWY_INLINE Vec3Lanes<D> Load3(D d, const double* values) {
-  return {hn::Set(d, values[0]), hn::Set(d, values[1]), hn::Set(d, values[2])};
+struct SharedRecord {
+  const double* values;
+
+  HWY_INLINE hn::Vec<D> operator[](std::size_t i) const { return hn::Set(D(), values[i]); }
+};
+
+/// Those of a record a lane, all of one kind.
+template <class D>
+struct LaneRecords {
+  const double* const* first;  ///< where each begins
+
+  HWY_INLINE hn::Vec<D> operator[](std::size_t i) const {
+    return TakeEach(D(), [&](std::size_t lane) { return first[lane][i]; });
+  }
+};
+
+template <class D, class Record>
+HWY_INLINE Vec3Lanes<D> Load3(D, const Record& r, std::size_t i) {
+  return {r[i], r[i + 1], r[i + 2]};
 }
-template <class D>
-HWY_INLINE Vec3Lanes<D> Map3(D d, const double* rows, const Vec3Lanes<D>& v) {
-  return {Dot(Load3(d, rows), v), Dot(Load3(d, rows + 3), v), Dot(Load3(d, rows + 6), v)};
+template <class D, class Record>
+HWY_INLINE Vec3Lanes<D> Map3(D d, const Record& r, std::size_t i, const Vec3Lanes<D>& v) {
+  return {Dot(Load3(d, r, i), v), Dot(Load3(d, r, i + 3), v), Dot(Load3(d, r, i + 6), v)};
 }
 
 /// For masks what IfThenElse is for vectors.

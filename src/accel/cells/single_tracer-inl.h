@@ -12,16 +12,13 @@
 #include <bit>
 
 #include "accel/cells/exact_cell-inl.h"
+#include "accel/cells/node_stack-inl.h"
 #include "accel/cells/record_chord-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-/// A node has at most eight children in place of itself, and no tree is deeper.
-inline constexpr std::size_t most_depth = 64;
-inline constexpr std::size_t most_pending = most_depth * (node_width - 1) + 1;
 
 /// Whether single precision and the records can follow a ray; false for what is not a number, too.
 inline bool IsSound(const CellTree& cells, const Vec3& origin, double square) {
@@ -36,17 +33,17 @@ class SingleTracer {
 
   Wanted wanted() const { return wanted_; }
 
-  CellAnswer Trace(const RayQuery& query, TraversalCounters& counters) {
+  // The answer is written where it stays: a copy of what was just written part by part waits for all of it.
+  void Trace(const RayQuery& query, CellAnswer& answer, TraversalCounters& counters) {
     query_ = &query;
-    CellAnswer answer;
+    answer = CellAnswer{};
     const Vec3 &o = query.ray.origin, &d = query.ray.direction;
     const double square = dot(d, d);
     if (!IsSound(cells_, o, square)) {
       answer.kind = CellAnswer::Kind::unsure;
-      return answer;
+    } else if (Begin(o, d, square)) {
+      Walk(answer, counters);
     }
-    if (!Begin(o, d, square)) return answer;
-    return Walk(counters);
   }
 
   /// What a boundary amounts to that plain arithmetic found: its t, its leaf and whether the ray enters that are known.
@@ -70,9 +67,7 @@ class SingleTracer {
   /// Begins a ray that is not traced here, for Finish() and FinishGroup().
   void BeginKnown(const RayQuery& query) {
     query_ = &query;
-    square_ = dot(query.ray.direction, query.ray.direction);
-    near_ = 2 * cells_.scale.resolution / std::sqrt(square_);
-    exact_begun_ = false;
+    BeginScale(dot(query.ray.direction, query.ray.direction));
   }
 
   /// The same where several faces are known to coincide.
@@ -94,7 +89,9 @@ class SingleTracer {
     double near = 0, far = query_->t_max;
     Vec3 slowness;
     bool flat = false;
-    const double length = std::sqrt(square), least = cells_.records.least_slope * length;
+    octant_ = 0;
+    BeginScale(square);
+    const double least = cells_.records.least_slope * scale_.length;
     for (int axis = 0; axis < 3; ++axis) {
       constexpr double most = 0x1p100;
       const double inverse = std::clamp(1 / d[axis], -most, most);
@@ -104,7 +101,7 @@ class SingleTracer {
       near = std::max(near, std::min(a, b));
       far = std::min(far, std::max(a, b));
       inverse_[axis] = static_cast<float>(inverse);
-      backward_[axis] = inverse < 0;
+      octant_ |= static_cast<std::uint32_t>(inverse < 0) << axis;
     }
     if (!(near <= far)) return false;
     start_ = near;
@@ -112,88 +109,53 @@ class SingleTracer {
     t_end_ = static_cast<float>((far - near) * (1 + 0x1p-20));
     const Vec3 from = o - cells_.center + near * d;
     for (int axis = 0; axis < 3; ++axis) origin_[axis] = static_cast<float>(from[axis]);
-    near_ = 2 * cells_.scale.resolution / length;
-    together_ = tolerance_ / length;
     const One one;
     ray_.origin = {hn::Set(one, from.x), hn::Set(one, from.y), hn::Set(one, from.z)};
     ray_.direction = {hn::Set(one, d.x), hn::Set(one, d.y), hn::Set(one, d.z)};
     ray_.slowness = {hn::Set(one, slowness.x), hn::Set(one, slowness.y), hn::Set(one, slowness.z)};
-    ray_.inverse_square = hn::Set(one, 1 / square);
-    ray_.length = hn::Set(one, length);
+    ray_.inverse_square = hn::Set(one, scale_.inverse_square);
+    ray_.length = hn::Set(one, scale_.length);
     ray_.near = hn::Set(one, near_);
     ray_.flat = flat;
-    exact_begun_ = false;
-    square_ = square;
     return true;
   }
 
-  struct Visit {
-    std::uint32_t child;
-    float t_in, t_out;
-  };
-
-  // Pushes the children that the ray meets, the nearest last.
-  HWY_INLINE void Open(const WideNode& node, Visit*& top) {
-    const hn::CappedTag<float, node_width> wide;
-    HWY_ALIGN float t_in[node_width];
-    HWY_ALIGN float t_out[node_width];
-    std::uint32_t met = 0;
-    for (std::size_t lane = 0; lane < node_width; lane += hn::Lanes(wide)) {
-      auto near = hn::Zero(wide), far = hn::Set(wide, t_end_);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto origin = hn::Set(wide, origin_[axis]);
-        const auto inverse = hn::Set(wide, inverse_[axis]);
-        const auto& ends = node.ends[axis];
-        const auto first = static_cast<std::size_t>(backward_[axis]);
-        near = hn::Max(near, hn::Mul(hn::Sub(hn::Load(wide, ends[first].data() + lane), origin), inverse));
-        far = hn::Min(far, hn::Mul(hn::Sub(hn::Load(wide, ends[1 - first].data() + lane), origin), inverse));
-      }
-      hn::Store(near, wide, t_in + lane);
-      hn::Store(far, wide, t_out + lane);
-      std::uint8_t bits[8] = {};
-      hn::StoreMaskBits(wide, hn::Le(near, far), bits);
-      met |= static_cast<std::uint32_t>(bits[0]) << lane;
-    }
-    Visit* const first = top;
-    for (; met != 0; met &= met - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(met));
-      const Visit visit{node.children[lane].bits, t_in[lane], t_out[lane]};
-      Visit* place = top++;
-      for (; place != first && place[-1].t_in < visit.t_in; --place) *place = place[-1];
-      *place = visit;
-    }
+  void BeginScale(double square) {
+    scale_ = {square, 1 / square, std::sqrt(square)};
+    const double slowness = 1 / scale_.length;
+    near_ = 2 * cells_.scale.resolution * slowness;
+    together_ = tolerance_ * slowness;
+    exact_begun_ = false;
   }
 
-  CellAnswer Walk(TraversalCounters& counters) {
-    Visit stack[most_pending];
-    Visit* top = stack;
-    CellAnswer answer;
-    Open(cells_.nodes.front(), top);
+  void Walk(CellAnswer& answer, TraversalCounters& counters) {
+    NodeStack stack;
+    const BoxRay ray{
+        {&origin_[0], &origin_[1], &origin_[2]}, {&inverse_[0], &inverse_[1], &inverse_[2]}, t_end_, octant_};
+    stack.Open(cells_.nodes.front(), ray);
     std::uint64_t visited = 0;
     tests_ = 0;
-    while (top != stack) {
-      const Visit visit = *--top;
-      const ChildRef child{visit.child};
+    while (!stack.empty()) {
+      const auto [child, t_in, t_out] = stack.Pop();
       if (!child.is_cell()) {
-        Open(cells_.nodes[child.index()], top);
+        stack.Open(cells_.nodes[child.index()], ray);
         continue;
       }
       ++visited;
       const Cell& cell = cells_.cells[child.index()];
       answer.cell = child.index();
-      const Outcome outcome = Meet(cell, visit.t_in, visit.t_out, answer);
+      const Outcome outcome = Meet(cell, t_in, t_out, answer);
       if (outcome == Outcome::passed) continue;
       if (outcome == Outcome::unsure) answer.kind = CellAnswer::Kind::unsure;
       break;
     }
     counters.cells_visited += visited;
     counters.primitive_tests += tests_ + exact_.TakeTests();
-    return answer;
   }
 
   void NeedExact() {
     if (exact_begun_) return;
-    exact_.Begin(*query_, square_);
+    exact_.Begin(*query_, scale_, 0.5 * near_, together_);
     exact_begun_ = true;
   }
 
@@ -309,12 +271,12 @@ class SingleTracer {
   double start_ = 0;
   double near_ = 0;
   double together_ = 0;
-  double square_ = 0;
+  RayScale scale_;
   bool exact_begun_ = false;
   float origin_[3] = {}, inverse_[3] = {};
-  int backward_[3] = {};
+  std::uint32_t octant_ = 0;  // bit a: backward along axis a
   float t_end_ = 0;
-  SceneRays<One> ray_{};
+  SceneRays<One> ray_;
   std::uint64_t tests_ = 0;
 };
 

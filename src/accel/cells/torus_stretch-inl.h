@@ -80,25 +80,25 @@ HWY_INLINE hn::Mask<D> PolishRoot(D d, const TorusLanes<D>& f, hn::Mask<D> lanes
 
 /// The ring in the stretch from t_in to t_out of each ray: up to two crossings there. What lies outside of the stretch
 /// is not looked at.
-template <class D>
-HWY_NOINLINE Stretch<D> TorusStretch(D d, const SceneRays<D>& ray, const double* r, hn::Vec<D> t_in, hn::Vec<D> t_out,
+template <class D, class Record>
+HWY_NOINLINE Stretch<D> TorusStretch(D d, const SceneRays<D>& ray, const Record& r, hn::Vec<D> t_in, hn::Vec<D> t_out,
                                      hn::Mask<D> lanes) {
   Vec3Lanes<D> place;
-  const auto shift = Approach(ray, Sub3(ray.origin, Load3(d, r + TorusRecord::center)), place);
-  const auto o = Map3(d, r + TorusRecord::map, place), v = Map3(d, r + TorusRecord::map, ray.direction);
-  const double R = r[TorusRecord::major], minor = r[TorusRecord::minor];
-  const auto inverse_R = hn::Set(d, 1 / R), half_inverse_R = hn::Set(d, 0.5 / R);
+  const auto shift = Approach(ray, Sub3(ray.origin, Load3(d, r, TorusRecord::center)), place);
+  const auto o = Map3(d, r, TorusRecord::map, place), v = Map3(d, r, TorusRecord::map, ray.direction);
+  const auto R = r[TorusRecord::major], minor = r[TorusRecord::minor], minor_square = hn::Mul(minor, minor);
+  const auto inverse_R = hn::Div(hn::Set(d, 1.0), R), half_inverse_R = hn::Div(hn::Set(d, 0.5), R);
   TorusLanes<D> f;
-  f.w0 = hn::Mul(hn::Sub(Dot(o, o), hn::Set(d, R * R + minor * minor)), half_inverse_R);
+  f.w0 = hn::Mul(hn::Sub(Dot(o, o), hn::Add(hn::Mul(R, R), minor_square)), half_inverse_R);
   f.w1 = hn::Mul(Dot(o, v), inverse_R);
   f.w2 = hn::Mul(Dot(v, v), half_inverse_R);
   f.z0 = o.z;
   f.z1 = v.z;
-  f.r_square = hn::Set(d, minor * minor);
+  f.r_square = minor_square;
 
   const auto zero = hn::Zero(d), infinity = hn::Set(d, std::numeric_limits<double>::infinity());
-  const auto error = hn::Set(d, r[TorusRecord::error]);
-  const auto least_slope = hn::Mul(hn::Set(d, r[TorusRecord::least]), ray.length);
+  const auto error = r[TorusRecord::error];
+  const auto least_slope = hn::Mul(r[TorusRecord::least], ray.length);
   const auto margin = hn::Mul(hn::Set(d, 4.0), ray.near);
   const auto begin = hn::Sub(hn::Sub(t_in, shift), margin), end = hn::Add(hn::Sub(t_out, shift), margin);
   auto low = begin, width = hn::Sub(end, begin);

@@ -33,6 +33,9 @@ struct alignas(64) WideNode {
   /// By axis; lower and upper ends.
   std::array<std::array<std::array<float, node_width>, 2>, 3> ends;
   std::array<ChildRef, node_width> children;
+  /// By octant of a ray's direction (bit a: backward along axis a): the lanes, three bits each, from the child that it
+  /// meets last to that which it meets first. Children do not overlap but by the slack, so the order is that of planes.
+  std::array<std::uint32_t, 8> last_to_first;
 };
 
 struct SubdivisionNode;

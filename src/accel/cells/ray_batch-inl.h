@@ -1,10 +1,10 @@
-// Many rays that go much the same way, side by side. Included once for each instruction set.
+// Many rays side by side. Included once for each instruction set.
 
-#if defined(TENON_ACCEL_CELLS_BLOCK_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef TENON_ACCEL_CELLS_BLOCK_RAYS_INL_H_
-#undef TENON_ACCEL_CELLS_BLOCK_RAYS_INL_H_
+#if defined(TENON_ACCEL_CELLS_RAY_BATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENON_ACCEL_CELLS_RAY_BATCH_INL_H_
+#undef TENON_ACCEL_CELLS_RAY_BATCH_INL_H_
 #else
-#define TENON_ACCEL_CELLS_BLOCK_RAYS_INL_H_
+#define TENON_ACCEL_CELLS_RAY_BATCH_INL_H_
 #endif
 
 #include <hwy/highway.h>
@@ -20,8 +20,8 @@ namespace tenon::cells {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Up to 64 rays into one octant, and intervals that hold their origins and directions.
-struct BlockRays {
+/// Up to 64 rays of one kind, and what the kernels want to know of them.
+struct RayBatch {
   using D = hn::CappedTag<double, 8>;
   using F = hn::CappedTag<float, 16>;
   // As many floats as there are doubles in a vector.
@@ -30,13 +30,14 @@ struct BlockRays {
   static constexpr std::size_t float_lanes = hn::MaxLanes(F());
   static constexpr std::size_t most_rays = 64;
 
-  /// Takes the rays; false when they do not make a block: they go into different octants or far apart, or single
-  /// precision cannot follow one of them.
-  bool Begin(const CellTree& cells, std::span<const RayQuery> rays) {
+  /// Takes the rays.
+  void Begin(const CellTree& cells, std::span<const RayQuery> rays) {
     queries = rays;
     count = queries.size();
     padded = (count + float_lanes - 1) / float_lanes * float_lanes;
-    return Load() && FindStarts(cells);
+    Load();
+    FindStarts(cells);
+    FindOctants();
   }
 
   /// Those from place i on, as many as a vector has doubles.
@@ -53,12 +54,36 @@ struct BlockRays {
     return ray;
   }
 
+  /// Those at any places, as many as there are lanes.
+  template <class Lanes>
+  HWY_INLINE SceneRays<Lanes> At(Lanes d, const std::uint8_t* places) const {
+    const auto take = [&](const double* values) {
+      return TakeEach(d, [&](std::size_t lane) { return values[places[lane]]; });
+    };
+    SceneRays<Lanes> ray;
+    ray.origin = {take(origin[0]), take(origin[1]), take(origin[2])};
+    ray.direction = {take(direction[0]), take(direction[1]), take(direction[2])};
+    ray.slowness = {take(slowness[0]), take(slowness[1]), take(slowness[2])};
+    ray.inverse_square = take(inverse_square);
+    ray.length = take(length);
+    ray.near = take(near);
+    ray.flat = flat;
+    return ray;
+  }
+
+  bool meets_scene(std::size_t i) const { return box_end[i] >= 0; }
+  /// The rays that meet the scene, a bit each.
+  std::uint64_t in_scene() const {
+    std::uint64_t rays = 0;
+    for (std::size_t i = 0; i < count; ++i) rays |= static_cast<std::uint64_t>(meets_scene(i)) << i;
+    return rays;
+  }
+
   std::span<const RayQuery> queries;
-  std::size_t count = 0, padded = 0;      ///< rays, and with those that fill the last vector
-  std::array<std::size_t, 3> backward{};  ///< by axis: 1 where all directions are negative
-  bool flat = false;                      ///< some ray is nearly parallel to an axis plane
-  bool has_from = false;                  ///< some ray starts on a surface
-  bool all_miss = false;                  ///< none meets the scene
+  std::size_t count = 0, padded = 0;  ///< rays, and with those that fill the last vector
+  std::uint64_t unsound = 0;          ///< rays that single precision cannot follow
+  bool flat = false;                  ///< some ray is nearly parallel to an axis plane
+  bool has_from = false;              ///< some ray starts on a surface
 
   HWY_ALIGN double origin[3][most_rays];  ///< where the ray meets the scene, relative to its centre
   HWY_ALIGN double query_origin[3][most_rays];
@@ -75,16 +100,13 @@ struct BlockRays {
   HWY_ALIGN float box_origin[3][most_rays];
   HWY_ALIGN float box_inverse[3][most_rays];
   HWY_ALIGN float box_end[most_rays];
-  /// What holds those of all rays that are not done at the beginning.
-  float low_origin[3] = {}, high_origin[3] = {}, low_inverse[3] = {}, high_inverse[3] = {};
+  std::uint8_t octant[most_rays];  ///< bit a: backward along axis a
 
  private:
-  bool Load() {
-    const RayKind kind = queries[0].kind;
+  HWY_NOINLINE void Load() {
     has_from = false;
     for (std::size_t i = 0; i < count; ++i) {
       const RayQuery& q = queries[i];
-      if (q.kind != kind) return false;
       for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
         query_origin[a][i] = q.ray.origin[axis];
@@ -101,25 +123,15 @@ struct BlockRays {
       }
       end[i] = -1;
     }
-    return true;
   }
 
-  // Where the rays meet the scene's box, what the kernels want to know of them, and the intervals that hold them all.
-  bool FindStarts(const CellTree& cells) {
+  // Where the rays meet the scene's box.
+  HWY_NOINLINE void FindStarts(const CellTree& cells) {
     const D d;
     const HalfF f;
     const auto zero = hn::Zero(d), most = hn::Set(d, 0x1p100), unit = hn::Set(d, 1.0);
-    for (std::size_t a = 0; a < 3; ++a) {
-      backward[a] = direction[a][0] < 0 ? 1 : 0;
-      low_origin[a] = low_inverse[a] = std::numeric_limits<float>::infinity();
-      high_origin[a] = high_inverse[a] = -std::numeric_limits<float>::infinity();
-    }
     flat = false;
-    HWY_ALIGN double low_share[3][double_lanes], high_share[3][double_lanes];
-    for (std::size_t a = 0; a < 3; ++a) {
-      hn::Store(hn::Set(d, 2.0), d, low_share[a]);
-      hn::Store(hn::Set(d, -2.0), d, high_share[a]);
-    }
+    unsound = 0;
     for (std::size_t i = 0; i < padded; i += double_lanes) {
       const hn::Vec<D> o[3] = {hn::Load(d, &query_origin[0][i]), hn::Load(d, &query_origin[1][i]),
                                hn::Load(d, &query_origin[2][i])};
@@ -127,35 +139,32 @@ struct BlockRays {
                                hn::Load(d, &direction[2][i])};
       const auto square = Dot(Vec3Lanes<D>{v[0], v[1], v[2]}, Vec3Lanes<D>{v[0], v[1], v[2]});
       const auto farthest = hn::Max(hn::Max(hn::Abs(o[0]), hn::Abs(o[1])), hn::Abs(o[2]));
-      const auto sound = hn::And(hn::Le(farthest, hn::Set(d, cells.scale.far_origin)),
-                                 hn::And(hn::Ge(square, hn::Set(d, 0x1p-200)), hn::Le(square, hn::Set(d, 0x1p200))));
-      if (!hn::AllTrue(d, sound)) return false;
+      // Of what is not a number neither holds.
+      const auto sound =
+          hn::And(hn::And(hn::Le(farthest, hn::Set(d, cells.scale.far_origin)),
+                          hn::Eq(hn::Add(hn::Add(o[0], o[1]), o[2]), hn::Add(hn::Add(o[0], o[1]), o[2]))),
+                  hn::And(hn::Ge(square, hn::Set(d, 0x1p-200)), hn::Le(square, hn::Set(d, 0x1p200))));
       const auto speed = hn::Sqrt(square);
       const auto inverse_length = hn::Div(unit, speed);
       const auto least = hn::Mul(hn::Set(d, cells.records.least_slope), speed);
       auto first = zero, last = hn::Load(d, &end[i]);
       hn::Vec<D> inverse[3];
       for (std::size_t a = 0; a < 3; ++a) {
-        const bool is_backward = backward[a] != 0;
-        const auto forward = hn::Gt(v[a], zero), against = hn::Lt(v[a], zero);
-        // A direction of zero has no side of its own; it is left to single rays.
-        if (!hn::AllTrue(d, is_backward ? against : forward)) return false;
         flat |= !hn::AllFalse(d, hn::Le(hn::Abs(v[a]), least));
         inverse[a] = hn::Max(hn::Min(hn::Div(unit, v[a]), most), hn::Neg(most));
         const double low = cells.box.lower[static_cast<int>(a)], high = cells.box.upper[static_cast<int>(a)];
-        first = hn::Max(first, hn::Mul(hn::Sub(hn::Set(d, is_backward ? high : low), o[a]), inverse[a]));
-        last = hn::Min(last, hn::Mul(hn::Sub(hn::Set(d, is_backward ? low : high), o[a]), inverse[a]));
-        const auto share = hn::Mul(v[a], inverse_length);
-        hn::Store(hn::Min(hn::Load(d, low_share[a]), share), d, low_share[a]);
-        hn::Store(hn::Max(hn::Load(d, high_share[a]), share), d, high_share[a]);
+        const auto to_low = hn::Mul(hn::Sub(hn::Set(d, low), o[a]), inverse[a]);
+        const auto to_high = hn::Mul(hn::Sub(hn::Set(d, high), o[a]), inverse[a]);
+        first = hn::Max(first, hn::Min(to_low, to_high));
+        last = hn::Min(last, hn::Max(to_low, to_high));
       }
-      const auto meets = hn::Le(first, last);
-      const auto begin = hn::IfThenElse(meets, first, zero);
+      unsound |= static_cast<std::uint64_t>(Bits(hn::Not(sound))) << i;
+      const auto meets = hn::And(sound, hn::Le(first, last));
+      const auto begin = hn::IfThenElseZero(meets, first);
       hn::Store(begin, d, &start[i]);
       hn::Store(hn::Mul(inverse_length, inverse_length), d, &inverse_square[i]);
       hn::Store(speed, d, &length[i]);
-      const auto two_resolutions = hn::Set(d, 2 * cells.scale.resolution);
-      hn::Store(hn::Mul(two_resolutions, inverse_length), d, &near[i]);
+      hn::Store(hn::Mul(hn::Set(d, 2 * cells.scale.resolution), inverse_length), d, &near[i]);
       for (std::size_t a = 0; a < 3; ++a) {
         const auto from = hn::Add(hn::Sub(o[a], hn::Set(d, cells.center[static_cast<int>(a)])), hn::Mul(begin, v[a]));
         hn::Store(from, d, &origin[a][i]);
@@ -168,32 +177,22 @@ struct BlockRays {
       const auto shown = hn::IfThenElse(meets, hn::Min(way, most), hn::Set(d, -1.0));
       hn::Store(hn::DemoteTo(f, shown), f, &box_end[i]);
     }
-    for (std::size_t a = 0; a < 3; ++a) {
-      const double least = *std::min_element(low_share[a], low_share[a] + double_lanes);
-      const double greatest = *std::max_element(high_share[a], high_share[a] + double_lanes);
-      if (greatest - least > widest_spread) return false;
-    }
-    return FindIntervals();
+    if (count < most_rays) unsound &= (std::uint64_t{1} << count) - 1;
   }
 
-  // Rays further apart than this share few cells: the spread of a component of their directions, at length 1. Set by
-  // trial on the bench; it decides who traces a ray, never what comes of it.
-  static constexpr double widest_spread = 0.25;
-
-  bool FindIntervals() {
-    bool any = false;
+  void FindOctants() {
     for (std::size_t i = 0; i < count; ++i) {
-      if (box_end[i] < 0) continue;
-      any = true;
-      for (std::size_t a = 0; a < 3; ++a) {
-        low_origin[a] = std::min(low_origin[a], box_origin[a][i]);
-        high_origin[a] = std::max(high_origin[a], box_origin[a][i]);
-        low_inverse[a] = std::min(low_inverse[a], box_inverse[a][i]);
-        high_inverse[a] = std::max(high_inverse[a], box_inverse[a][i]);
-      }
+      octant[i] = static_cast<std::uint8_t>(static_cast<int>(box_inverse[0][i] < 0) |
+                                            static_cast<int>(box_inverse[1][i] < 0) << 1 |
+                                            static_cast<int>(box_inverse[2][i] < 0) << 2);
     }
-    all_miss = !any;
-    return true;
+  }
+
+ public:
+  static std::uint32_t Bits(hn::Mask<D> mask) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(D(), mask, bits);
+    return bits[0];
   }
 };
 

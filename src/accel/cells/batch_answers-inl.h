@@ -1,0 +1,223 @@
+// What was found of each ray of a batch, and how that becomes an answer. Included once for each instruction set.
+
+#if defined(TENON_ACCEL_CELLS_BATCH_ANSWERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENON_ACCEL_CELLS_BATCH_ANSWERS_INL_H_
+#undef TENON_ACCEL_CELLS_BATCH_ANSWERS_INL_H_
+#else
+#define TENON_ACCEL_CELLS_BATCH_ANSWERS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+
+#include "accel/cells/ray_batch-inl.h"
+#include "accel/cells/single_tracer-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenon::cells {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// What plain arithmetic has found of the rays of a batch.
+struct BatchFindings {
+  static constexpr std::size_t most_rays = RayBatch::most_rays;
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+  enum Flag : std::uint8_t { entering = 1, was_inside = 2, group = 4 };
+
+  HWY_ALIGN double t[most_rays];             ///< of the first boundary so far, counted from the start
+  HWY_ALIGN std::uint64_t place[most_rays];  ///< of its leaf in the cell
+  std::uint32_t cell[most_rays];             ///< or `none`
+  LeafId leaf[most_rays];
+  std::uint8_t flags[most_rays];
+  std::uint64_t unsure = 0;  ///< rays that are left to SingleTracer
+
+  void Clear(const RayBatch& rays) {
+    const RayBatch::D d;
+    for (std::size_t i = 0; i < rays.padded; i += RayBatch::double_lanes)
+      hn::Store(hn::Set(d, std::numeric_limits<double>::infinity()), d, &t[i]);
+    std::fill_n(cell, rays.padded, none);
+    unsure = rays.unsound;
+  }
+
+  static constexpr std::uint8_t flags_of(bool enters, bool inside, bool crowded) {
+    return static_cast<std::uint8_t>((enters ? entering : 0) | (inside ? was_inside : 0) | (crowded ? group : 0));
+  }
+};
+
+/// Gives what was found its last bits.
+class BatchAnswers {
+ public:
+  BatchAnswers(const CellTree& tree, const RayBatch& batch, const BatchFindings& findings)
+      : cells_(tree), rays_(batch), found_(findings) {}
+
+  void Write(std::span<CellAnswer> answers, SingleTracer& single, TraversalCounters& counters) const {
+    std::uint64_t finished = 0;
+    if (single.wanted() == Wanted::boundary) finished = FinishTogether(answers);
+    for (std::size_t i = 0; i < rays_.count; ++i) {
+      if ((finished >> i & 1) == 0) Answer(i, answers[i], single, counters);
+    }
+  }
+
+ private:
+  using D = RayBatch::D;
+  static constexpr std::size_t double_lanes = RayBatch::double_lanes;
+  static constexpr std::size_t kinds = static_cast<std::size_t>(ShapeKind::cylinder) + 1;
+
+  // SingleTracer::Finish for rays that do not start on the leaf that they meet: neighbours that meet the same one, and
+  // then those that meet leaves of one kind.
+  // @return the rays whose answers are complete
+  HWY_NOINLINE std::uint64_t FinishTogether(std::span<CellAnswer> answers) const {
+    // Where fewer share a leaf it is not worth a vector of their own (by trial on the bench).
+    constexpr int least_neighbours = 3;
+    std::uint64_t finished = 0;
+    std::array<std::uint64_t, kinds> rest{};
+    for (std::size_t at = 0; at < rays_.count; at += double_lanes) {
+      std::uint32_t left = 0;
+      for (std::size_t lane = 0; lane < double_lanes && at + lane < rays_.count; ++lane) {
+        left |= static_cast<std::uint32_t>(IsSimple(at + lane)) << lane;
+      }
+      while (left != 0) {
+        const LeafId leaf = found_.leaf[at + static_cast<std::size_t>(std::countr_zero(left))];
+        std::uint32_t same = 0;
+        for (std::uint32_t bits = left; bits != 0; bits &= bits - 1) {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+          same |= static_cast<std::uint32_t>(found_.leaf[at + lane] == leaf) << lane;
+        }
+        left &= ~same;
+        const ShapeRef shape = cells_.shapes.of_leaf[leaf.get()];
+        if (std::popcount(same) < least_neighbours || shape.kind() == ShapeKind::general) {
+          rest[static_cast<std::size_t>(shape.kind())] |= std::uint64_t{same} << at;
+        } else {
+          finished |= FinishNeighbours(at, shape, same, answers);
+        }
+      }
+    }
+    for (std::size_t kind = static_cast<std::size_t>(ShapeKind::general) + 1; kind < kinds; ++kind) {
+      while (rest[kind] != 0) finished |= FinishSome(static_cast<ShapeKind>(kind), rest[kind], answers);
+    }
+    return finished;
+  }
+
+  bool IsSimple(std::size_t i) const {
+    const bool is_known = found_.cell[i] != BatchFindings::none && (found_.unsure >> i & 1) == 0;
+    return is_known && (found_.flags[i] & BatchFindings::group) == 0 &&
+           start_face(rays_.queries[i], found_.leaf[i]) < 0;
+  }
+
+  std::uint64_t FinishNeighbours(std::size_t at, ShapeRef shape, std::uint32_t lanes,
+                                 std::span<CellAnswer> answers) const {
+    const D d;
+    std::array<std::uint8_t, double_lanes> places;
+    for (std::size_t lane = 0; lane < double_lanes; ++lane) places[lane] = static_cast<std::uint8_t>(at + lane);
+    const auto take = [&](const double* values) { return hn::Load(d, values + at); };
+    const auto chord =
+        FindChord(d, Rays(take), cells_.shapes, shape, -1, cells_.scale.reach, hn::Load(d, rays_.length + at));
+    return Complete(chord, places, lanes, answers);
+  }
+
+  // @param left  rays that meet leaves of the kind; those that are dealt with are taken out
+  std::uint64_t FinishSome(ShapeKind kind, std::uint64_t& left, std::span<CellAnswer> answers) const {
+    const D d;
+    std::array<std::uint8_t, double_lanes> places;
+    std::uint32_t lanes = 0;
+    std::size_t i = 0;
+    for (std::size_t lane = 0; lane < double_lanes; ++lane) {
+      // Lanes without a ray repeat the last one.
+      if (left != 0) {
+        i = static_cast<std::size_t>(std::countr_zero(left));
+        left &= left - 1;
+        lanes |= 1U << lane;
+      }
+      places[lane] = static_cast<std::uint8_t>(i);
+    }
+    const auto take = [&](const double* values) {
+      return TakeEach(d, [&](std::size_t lane) { return values[places[lane]]; });
+    };
+    const auto take_shapes = [&]<class Shape>(const std::vector<Shape>& list) {
+      LaneShapes<D, Shape> shapes;
+      for (std::size_t lane = 0; lane < double_lanes; ++lane) {
+        shapes.Put(lane, list[cells_.shapes.of_leaf[found_.leaf[places[lane]].get()].index()]);
+      }
+      return shapes;
+    };
+    const auto chord =
+        FindChord(d, Rays(take), cells_.shapes, kind, take_shapes, -1, cells_.scale.reach, take(rays_.length));
+    return Complete(chord, places, lanes, answers);
+  }
+
+  template <class Take>
+  HWY_INLINE RayLanes<D> Rays(const Take& take) const {
+    const D d;
+    RayLanes<D> ray;
+    ray.origin = {take(rays_.query_origin[0]), take(rays_.query_origin[1]), take(rays_.query_origin[2])};
+    ray.direction = {take(rays_.direction[0]), take(rays_.direction[1]), take(rays_.direction[2])};
+    ray.square = Dot(ray.direction, ray.direction);
+    ray.inverse = hn::Div(hn::Set(d, 1.0), ray.square);
+    ray.resolution = hn::Mul(hn::Set(d, 0.5), take(rays_.near));
+    return ray;
+  }
+
+  // The answers of rays whose exact chords are known, where they are certain.
+  std::uint64_t Complete(const ChordLanes<D>& chord, const std::array<std::uint8_t, double_lanes>& places,
+                         std::uint32_t lanes, std::span<CellAnswer> answers) const {
+    const D d;
+    HWY_ALIGN double ends[2][double_lanes];
+    HWY_ALIGN double faces[2][double_lanes];
+    hn::Store(chord.leave, d, ends[0]);
+    hn::Store(chord.enter, d, ends[1]);
+    hn::Store(chord.leave_face, d, faces[0]);
+    hn::Store(chord.enter_face, d, faces[1]);
+    std::uint64_t done = 0;
+    for (lanes &= RayBatch::Bits(hn::AndNot(chord.unsure, chord.hit)); lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      const std::size_t i = places[lane];
+      const std::size_t end = found_.flags[i] & BatchFindings::entering;
+      if (!(std::fabs(ends[end][lane] - (found_.t[i] + rays_.start[i])) <= rays_.near[i])) continue;
+      CellAnswer& answer = answers[i];
+      answer = CellAnswer{};
+      answer.t = ends[end][lane];
+      answer.kind = answer.t < rays_.queries[i].t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
+      answer.cell = found_.cell[i];
+      answer.surface = {found_.leaf[i], static_cast<std::uint32_t>(faces[end][lane])};
+      answer.leaf_entering = end != 0;
+      answer.before = (found_.flags[i] & BatchFindings::was_inside) != 0;
+      done |= std::uint64_t{1} << i;
+    }
+    return done;
+  }
+
+  void Answer(std::size_t i, CellAnswer& answer, SingleTracer& single, TraversalCounters& counters) const {
+    const RayQuery& query = rays_.queries[i];
+    if ((found_.unsure >> i & 1) != 0) return single.Trace(query, answer, counters);
+    answer = CellAnswer{};
+    if (found_.cell[i] == BatchFindings::none) return;
+    const Cell& cell = cells_.cells[found_.cell[i]];
+    answer.cell = found_.cell[i];
+    answer.t = found_.t[i] + rays_.start[i];
+    answer.surface = {found_.leaf[i], 0};
+    answer.leaf_entering = (found_.flags[i] & BatchFindings::entering) != 0;
+    answer.before = (found_.flags[i] & BatchFindings::was_inside) != 0;
+    if (single.wanted() == Wanted::occlusion && answer.t + 2 * rays_.near[i] < rays_.end[i]) {
+      answer.kind = CellAnswer::Kind::boundary;
+      return;
+    }
+    single.BeginKnown(query);
+    if ((found_.flags[i] & BatchFindings::group) != 0) {
+      single.FinishGroup(cell, answer);
+    } else {
+      single.Finish(answer);
+    }
+  }
+
+  const CellTree& cells_;
+  const RayBatch& rays_;
+  const BatchFindings& found_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tenon::cells
+HWY_AFTER_NAMESPACE();
+
+#endif

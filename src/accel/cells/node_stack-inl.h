@@ -1,0 +1,114 @@
+// What is left of the tree for one ray. Included once for each instruction set.
+
+#if defined(TENON_ACCEL_CELLS_NODE_STACK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENON_ACCEL_CELLS_NODE_STACK_INL_H_
+#undef TENON_ACCEL_CELLS_NODE_STACK_INL_H_
+#else
+#define TENON_ACCEL_CELLS_NODE_STACK_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "accel/cells/wide_node.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenon::cells {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// A node has at most eight children in place of itself, and no tree is deeper.
+inline constexpr std::size_t most_depth = 64;
+inline constexpr std::size_t most_pending = most_depth * (node_width - 1) + 1;
+
+/// A ray in single precision, from where it meets the scene.
+struct BoxRay {
+  const float *origin[3], *inverse[3];
+  float t_end;
+  std::uint32_t octant;  ///< bit a: backward along axis a
+};
+
+/// Nodes and cells that a ray has still to visit, the nearest last.
+class NodeStack {
+ public:
+  struct Visit {
+    ChildRef child;
+    float t_in, t_out;
+  };
+
+  bool empty() const { return size_ == 0; }
+  void Clear() { size_ = 0; }
+  Visit Pop() {
+    --size_;
+    return {ChildRef{child_[size_]}, t_in_[size_], t_out_[size_]};
+  }
+  /// What is popped when nothing else is left.
+  void Push(ChildRef child) { child_[size_++] = child.bits; }
+
+  /// Pushes the children that the ray meets.
+  HWY_INLINE void Open(const WideNode& node, const BoxRay& ray) {
+    const Wide wide;
+    const std::uint32_t order = node.last_to_first[ray.octant];
+    std::size_t size = size_;
+    if constexpr (hn::MaxLanes(Wide()) == node_width) {
+      const hn::RebindToUnsigned<Wide> whole;
+      HWY_ALIGN static constexpr std::uint32_t shifts[node_width] = {0, 3, 6, 9, 12, 15, 18, 21};
+      const auto lane = hn::And(hn::Shr(hn::Set(whole, order), hn::Load(whole, shifts)), hn::Set(whole, 7));
+      const auto ordered = hn::IndicesFromVec(wide, lane);
+      const Stretches s = Meet(node, ray, 0);
+      const auto near = hn::TableLookupLanes(s.near, ordered), far = hn::TableLookupLanes(s.far, ordered);
+      const auto child = hn::TableLookupLanes(hn::Load(whole, &node.children[0].bits), hn::IndicesFromVec(whole, lane));
+      const auto met = hn::Le(near, far);
+      // Whole vectors are written; what lies behind the last one met is overwritten by what comes next.
+      hn::StoreU(hn::Compress(near, met), wide, t_in_ + size);
+      hn::StoreU(hn::Compress(far, met), wide, t_out_ + size);
+      hn::StoreU(hn::Compress(child, hn::RebindMask(whole, met)), whole, child_ + size);
+      size += hn::CountTrue(wide, met);
+    } else {
+      HWY_ALIGN float near[node_width];
+      HWY_ALIGN float far[node_width];
+      for (std::size_t lane = 0; lane < node_width; lane += hn::Lanes(wide)) {
+        const Stretches s = Meet(node, ray, lane);
+        hn::Store(s.near, wide, near + lane);
+        hn::Store(s.far, wide, far + lane);
+      }
+      for (std::uint32_t place = 0; place < node_width; ++place) {
+        const std::uint32_t lane = order >> (3 * place) & 7;
+        child_[size] = node.children[lane].bits;
+        t_in_[size] = near[lane];
+        t_out_[size] = far[lane];
+        size += near[lane] <= far[lane] ? 1 : 0;
+      }
+    }
+    size_ = size;
+  }
+
+ private:
+  using Wide = hn::CappedTag<float, node_width>;
+  struct Stretches {
+    hn::Vec<Wide> near, far;
+  };
+
+  static HWY_INLINE Stretches Meet(const WideNode& node, const BoxRay& ray, std::size_t lane) {
+    const Wide wide;
+    Stretches s{hn::Zero(wide), hn::Set(wide, ray.t_end)};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto origin = hn::Set(wide, *ray.origin[axis]), inverse = hn::Set(wide, *ray.inverse[axis]);
+      const float* ends = node.ends[axis][0].data() + lane;
+      const std::size_t first = (ray.octant >> axis & 1) * node_width;
+      s.near = hn::Max(s.near, hn::Mul(hn::Sub(hn::Load(wide, ends + first), origin), inverse));
+      s.far = hn::Min(s.far, hn::Mul(hn::Sub(hn::Load(wide, ends + (node_width - first)), origin), inverse));
+    }
+    return s;
+  }
+
+  std::uint32_t child_[most_pending + node_width];
+  float t_in_[most_pending + node_width];
+  float t_out_[most_pending + node_width];
+  std::size_t size_ = 0;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tenon::cells
+HWY_AFTER_NAMESPACE();
+
+#endif

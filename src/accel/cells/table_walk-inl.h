@@ -1,0 +1,141 @@
+// Rays through cells whose expression is a truth table, one ray a lane. Included once for each instruction set.
+
+#if defined(TENON_ACCEL_CELLS_TABLE_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TENON_ACCEL_CELLS_TABLE_WALK_INL_H_
+#undef TENON_ACCEL_CELLS_TABLE_WALK_INL_H_
+#else
+#define TENON_ACCEL_CELLS_TABLE_WALK_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <limits>
+
+#include "accel/cells/cell.h"
+#include "accel/cells/scene_rays-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tenon::cells {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Where rays meet the leaves of their cells, and what comes of it.
+template <class D>
+struct TableWalk {
+  using U = hn::RebindToUnsigned<D>;
+
+  /// By place in the cell; `never` where a leaf is not met.
+  hn::Vec<D> enter[Cell::most_tabled], leave[Cell::most_tabled];
+  hn::Mask<D> unsure;  ///< told by whoever fills in the above, too
+
+  hn::Mask<D> met;      ///< the value changes at t
+  hn::Mask<D> crowded;  ///< several faces coincide there
+  hn::Mask<D> enters;   ///< the ray enters the leaf that it meets
+  hn::Mask<D> inside;   ///< the solid, before
+  hn::Vec<D> t;
+  hn::Vec<U> place;  ///< of the leaf that is met
+
+  static constexpr double never = std::numeric_limits<double>::infinity();
+
+  /// Follows the rays of `lanes` from t_in to t_out.
+  /// @param count  the most leaves of any cell
+  /// @param near, together  crossings no further apart may be one boundary, or certainly are
+  void Follow(D d, std::uint32_t count, hn::Mask<D> lanes, hn::Vec<U> table, hn::Vec<D> t_in, hn::Vec<D> t_out,
+              hn::Vec<D> near, hn::Vec<D> together) {
+    const U u;
+    const auto nowhere = hn::Set(d, never);
+    const auto one = hn::Set(u, 1);
+    auto state = hn::Zero(u);
+    hn::Vec<D> next[Cell::most_tabled];
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const auto within = hn::And(hn::Le(enter[i], t_in), hn::Lt(t_in, leave[i]));
+      state = hn::Or(state, hn::IfThenElseZero(hn::RebindMask(u, within), hn::Set(u, std::uint64_t{1} << i)));
+      const auto ahead = hn::IfThenElse(hn::Gt(enter[i], t_in), enter[i], nowhere);
+      next[i] = hn::IfThenElse(within, leave[i], ahead);
+    }
+    unsure = hn::And(unsure, lanes);
+    const auto before = hn::And(hn::Shr(table, state), one);
+    inside = hn::RebindMask(d, hn::Eq(before, one));
+    auto active = hn::AndNot(unsure, lanes);
+    met = crowded = enters = hn::Lt(near, hn::Zero(d));  // none yet
+    t = nowhere;
+    place = hn::Zero(u);
+    for (;;) {
+      auto first = next[0];
+      for (std::uint32_t i = 1; i < count; ++i) first = hn::Min(first, next[i]);
+      active = hn::And(active, hn::Le(first, t_out));
+      if (hn::AllFalse(d, active)) return;
+      for (std::uint32_t i = count; i-- > 0;) {
+        const auto crossed = hn::And(active, hn::Eq(next[i], first));
+        const auto leaving = hn::Eq(leave[i], first);
+        state = hn::Xor(state, hn::IfThenElseZero(hn::RebindMask(u, crossed), hn::Set(u, std::uint64_t{1} << i)));
+        next[i] = hn::IfThenElse(crossed, hn::IfThenElse(leaving, nowhere, leave[i]), next[i]);
+        place = hn::IfThenElse(hn::RebindMask(u, crossed), hn::Set(u, i), place);
+        enters = hn::Or(hn::AndNot(crossed, enters), hn::AndNot(leaving, crossed));
+      }
+      const auto value = hn::And(hn::Shr(table, state), one);
+      auto changed = hn::AndNot(hn::RebindMask(d, hn::Eq(value, before)), active);
+      if (hn::AllFalse(d, changed)) continue;
+      if (count > 1) {
+        const auto crowd = hn::AndNot(IsAlone(d, count, first, near), changed);
+        if (!hn::AllFalse(d, crowd)) {
+          hn::Mask<D> cancels, doubtful;
+          MeetGroup(d, count, first, near, together, crowd, table, before, state, next, cancels, doubtful);
+          unsure = hn::Or(unsure, doubtful);
+          changed = hn::AndNot(hn::Or(cancels, doubtful), changed);
+          active = hn::AndNot(doubtful, active);
+          crowded = hn::Or(crowded, hn::And(crowd, changed));
+        }
+      }
+      t = hn::IfThenElse(changed, first, t);
+      met = hn::Or(met, changed);
+      active = hn::AndNot(changed, active);
+    }
+  }
+
+ private:
+  HWY_INLINE hn::Mask<D> IsAlone(D d, std::uint32_t count, hn::Vec<D> at, hn::Vec<D> near) const {
+    const auto unit = hn::Set(d, 1.0);
+    auto ends = hn::Zero(d);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      ends = hn::Add(ends, hn::IfThenElseZero(hn::Le(hn::Abs(hn::Sub(enter[i], at)), near), unit));
+      ends = hn::Add(ends, hn::IfThenElseZero(hn::Le(hn::Abs(hn::Sub(leave[i], at)), near), unit));
+    }
+    return hn::Le(ends, unit);
+  }
+
+  // CrossingGroup for the lanes of `crowd`: those in which it is not certain, and those in which its faces cancel,
+  // whose state is then that behind it.
+  HWY_NOINLINE void MeetGroup(D d, std::uint32_t count, hn::Vec<D> at, hn::Vec<D> near, hn::Vec<D> together,
+                              hn::Mask<D> crowd, hn::Vec<U> table, hn::Vec<U> before, hn::Vec<U>& state,
+                              hn::Vec<D>* next, hn::Mask<D>& cancels, hn::Mask<D>& doubtful) const {
+    const U u;
+    doubtful = hn::Lt(near, hn::Zero(d));
+    auto after = state;
+    hn::Mask<D> entered[Cell::most_tabled], left[Cell::most_tabled];
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const auto from_enter = hn::Abs(hn::Sub(enter[i], at)), from_leave = hn::Abs(hn::Sub(leave[i], at));
+      entered[i] = hn::Le(from_enter, together);
+      left[i] = hn::Le(from_leave, together);
+      doubtful = hn::Or(doubtful, hn::AndNot(entered[i], hn::Le(from_enter, near)));
+      doubtful = hn::Or(doubtful, hn::AndNot(left[i], hn::Le(from_leave, near)));
+      const auto bit = hn::Set(u, std::uint64_t{1} << i);
+      after = hn::IfThenElse(hn::RebindMask(u, entered[i]), hn::Or(after, bit), after);
+      after = hn::IfThenElse(hn::RebindMask(u, left[i]), hn::AndNot(bit, after), after);
+    }
+    doubtful = hn::And(doubtful, crowd);
+    const auto value = hn::And(hn::Shr(table, after), hn::Set(u, 1));
+    cancels = hn::AndNot(doubtful, hn::And(crowd, hn::RebindMask(d, hn::Eq(value, before))));
+    state = hn::IfThenElse(hn::RebindMask(u, cancels), after, state);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      next[i] = hn::IfThenElse(hn::And(cancels, entered[i]), leave[i], next[i]);
+      next[i] = hn::IfThenElse(hn::And(cancels, left[i]), hn::Set(d, never), next[i]);
+    }
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tenon::cells
+HWY_AFTER_NAMESPACE();
+
+#endif
