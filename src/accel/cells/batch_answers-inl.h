@@ -52,11 +52,11 @@ class BatchAnswers {
   BatchAnswers(const CellTree& tree, const RayBatch& batch, const BatchFindings& findings)
       : cells_(tree), rays_(batch), found_(findings) {}
 
-  void Write(std::span<CellAnswer> answers, SingleTracer& single, TraversalCounters& counters) const {
+  void Write(std::span<CellAnswer> answers, SingleTracer& single, TraversalStatistics& statistics) const {
     std::uint64_t finished = 0;
     if (single.wanted() == Wanted::boundary) finished = FinishTogether(answers);
     for (std::size_t i = 0; i < rays_.count; ++i) {
-      if ((finished >> i & 1) == 0) Answer(i, answers[i], single, counters);
+      if ((finished >> i & 1) == 0) Answer(i, answers[i], single, statistics);
     }
   }
 
@@ -188,9 +188,9 @@ class BatchAnswers {
     return done;
   }
 
-  void Answer(std::size_t i, CellAnswer& answer, SingleTracer& single, TraversalCounters& counters) const {
+  void Answer(std::size_t i, CellAnswer& answer, SingleTracer& single, TraversalStatistics& statistics) const {
     const RayQuery& query = rays_.queries[i];
-    if ((found_.unsure >> i & 1) != 0) return single.Trace(query, answer, counters);
+    if ((found_.unsure >> i & 1) != 0) return single.Trace(query, answer, statistics[query.kind]);
     answer = CellAnswer{};
     if (found_.cell[i] == BatchFindings::none) return;
     const Cell& cell = cells_.cells[found_.cell[i]];

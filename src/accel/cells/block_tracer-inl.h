@@ -27,9 +27,10 @@ class BlockTracer {
   BlockTracer(const CellTree& cells, double tolerance, RayBatch& rays, BatchFindings& found)
       : cells_(cells), tolerance_(tolerance), rays_(rays), found_(found) {}
 
-  /// Whether the rays make a block: they go into one octant, and nowhere near along its planes, and not far apart.
+  /// Whether the rays make a block: they are of one kind and go into one octant, and nowhere near along its planes, and
+  /// not far apart.
   bool Begin() {
-    if (rays_.unsound != 0) return false;
+    if (rays_.unsound != 0 || !rays_.one_kind) return false;
     const D d;
     const auto zero = hn::Zero(d);
     const std::uint8_t octant = rays_.octant[0];

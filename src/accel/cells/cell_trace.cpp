@@ -38,23 +38,14 @@ HWY_NOINLINE void TraceInBatches(const CellTree& cells, double tolerance, Single
   StreamTracer stream(cells, tolerance, rays, found);
   const BatchAnswers finisher(cells, rays, found);
   const bool any_will_do = single.wanted() == Wanted::occlusion;
-  for (std::size_t begin = 0; begin < queries.size();) {
-    const RayKind kind = queries[begin].kind;
-    const std::size_t most = std::min(RayBatch::most_rays, queries.size() - begin);
-    std::size_t count = 1;
-    while (count < most && queries[begin + count].kind == kind) ++count;
-    if (count < least_batch) {
-      TraceOneByOne(single, queries.subspan(begin, count), answers.subspan(begin, count), statistics);
-      begin += count;
-      continue;
-    }
-    TraversalCounters& counters = statistics[kind];
+  for (std::size_t begin = 0; begin < queries.size(); begin += RayBatch::most_rays) {
+    const std::size_t count = std::min(RayBatch::most_rays, queries.size() - begin);
     rays.Begin(cells, queries.subspan(begin, count));
     found.Clear(rays);
-    const std::uint64_t left = block.Begin() ? block.Trace(any_will_do, counters) : rays.in_scene();
-    if (left != 0) stream.Trace(left, counters);
-    finisher.Write(answers.subspan(begin, count), single, counters);
-    begin += count;
+    const bool is_block = count >= least_batch && block.Begin();
+    const std::uint64_t left = is_block ? block.Trace(any_will_do, statistics[queries[begin].kind]) : rays.in_scene();
+    if (left != 0) stream.Trace(left, statistics);
+    finisher.Write(answers.subspan(begin, count), single, statistics);
   }
 }
 

@@ -20,7 +20,7 @@ namespace tenon::cells {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Up to 64 rays of one kind, and what the kernels want to know of them.
+/// Up to 64 rays, and what the kernels want to know of them.
 struct RayBatch {
   using D = hn::CappedTag<double, 8>;
   using F = hn::CappedTag<float, 16>;
@@ -84,6 +84,7 @@ struct RayBatch {
   std::uint64_t unsound = 0;          ///< rays that single precision cannot follow
   bool flat = false;                  ///< some ray is nearly parallel to an axis plane
   bool has_from = false;              ///< some ray starts on a surface
+  bool one_kind = true;               ///< all are of one RayKind
 
   HWY_ALIGN double origin[3][most_rays];  ///< where the ray meets the scene, relative to its centre
   HWY_ALIGN double query_origin[3][most_rays];
@@ -105,6 +106,7 @@ struct RayBatch {
  private:
   HWY_NOINLINE void Load() {
     has_from = false;
+    one_kind = true;
     for (std::size_t i = 0; i < count; ++i) {
       const RayQuery& q = queries[i];
       for (int axis = 0; axis < 3; ++axis) {
@@ -114,6 +116,7 @@ struct RayBatch {
       }
       end[i] = q.t_max;
       has_from |= q.from != nullptr;
+      one_kind &= q.kind == queries[0].kind;
     }
     // Lanes without a ray repeat the last one, and have no length.
     for (std::size_t i = count; i < padded; ++i) {

@@ -30,9 +30,9 @@ class StreamTracer {
 
   /// Traces rays of the batch.
   /// @param left  them, a bit each
-  void Trace(std::uint64_t left, TraversalCounters& counters) {
+  void Trace(std::uint64_t left, TraversalStatistics& statistics) {
     left_ = left;
-    visited_ = tests_ = 0;
+    statistics_ = &statistics;
     slots_open_ = slots_waiting_ = 0;
     for (std::uint8_t slot = 0; slot < most_slots; ++slot) Refill(slot);
     for (;;) {
@@ -40,8 +40,6 @@ class StreamTracer {
       if (slots_waiting_ == 0) break;
       MeetCells();
     }
-    counters.cells_visited += visited_;
-    counters.primitive_tests += tests_;
   }
 
  private:
@@ -121,7 +119,8 @@ class StreamTracer {
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint8_t slot = waiting_[k];
       const Slot& s = slots_[slot];
-      ++visited_;
+      TraversalCounters& counters = (*statistics_)[rays_.queries[s.ray].kind];
+      ++counters.cells_visited;
       const Cell& cell = cells_.cells[s.cell];
       if (cell.general || cell.extended) {
         LeaveToOthers(slot);
@@ -133,7 +132,7 @@ class StreamTracer {
       t_in_[lane] = s.t_in;
       t_out_[lane] = s.t_out;
       table_[lane] = cell.table;
-      tests_ += cell.leaf_count;
+      counters.primitive_tests += cell.leaf_count;
       most_leaves_ = std::max<std::uint32_t>(most_leaves_, cell.leaf_count);
       for (std::uint32_t i = 0; i < cell.leaf_count; ++i) {
         LeafList& list = leaves_[static_cast<std::size_t>(cell.records[i].kind())];
@@ -310,7 +309,7 @@ class StreamTracer {
   RayBatch& rays_;
   BatchFindings& found_;
   std::uint64_t left_ = 0;
-  std::uint64_t visited_ = 0, tests_ = 0;
+  TraversalStatistics* statistics_ = nullptr;
 
   std::array<Slot, most_slots> slots_{};
   std::array<NodeStack, most_slots> stacks_;
