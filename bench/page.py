@@ -1,0 +1,208 @@
+#!/usr/bin/python3
+"""page.py RESULTS PAGE: writes what the bench has measured, as JSON in the folder RESULTS, to a page of Markdown."""
+import datetime
+import json
+import math
+import os
+import pathlib
+import platform
+import subprocess
+import sys
+
+MESH = "mesh 1920"
+
+
+def load(folder, part):
+    path = folder / f"{part}.json"
+    return json.loads(path.read_text()) if path.exists() else []
+
+
+def rates(rows):
+    """{(scene, rays): {contender: millions of rays a second}}, in the order they were measured."""
+    table = {}
+    for row in rows:
+        if "mrays_per_second" in row:
+            table.setdefault((row["scene"], row["rays"]), {})[row["contender"]] = row["mrays_per_second"]
+    return table
+
+
+def figures(rows, name):
+    return {row["scene"]: row["value"] for row in rows if row.get("figure") == name}
+
+
+def number(x):
+    return f"{x:.3g}" if x < 1000 else f"{x:,.0f}"
+
+
+def mean(values):
+    return math.exp(sum(map(math.log, values)) / len(values))
+
+
+def table(head, lines):
+    rule = ["---"] + ["---:"] * (len(head) - 1)
+    return ["| " + " | ".join(cells) + " |" for cells in [head, rule, *lines]] + [""]
+
+
+def with_means(lines, columns):
+    """Lines of names and ratios, the geometric mean and the least of each column below."""
+    texts = [[name, *map(number, ratios)] for name, ratios in lines]
+    if len(lines) > 1:
+        by_column = [[ratios[i] for _, ratios in lines] for i in range(columns)]
+        texts.append(["**geometric mean**", *(f"**{number(mean(column))}**" for column in by_column)])
+        texts.append(["least", *(number(min(column)) for column in by_column)])
+    return texts
+
+
+def kinds_of(measured):
+    return list(dict.fromkeys(rays for _, rays in measured))
+
+
+def by_scene(measured, ratio):
+    """A line a scene, a ratio for each kind of ray; scenes that lack a kind are left out."""
+    kinds, lines = kinds_of(measured), []
+    for scene in dict.fromkeys(scene for scene, _ in measured):
+        if all((scene, kind) in measured for kind in kinds):
+            lines.append((scene, [ratio(measured[scene, kind]) for kind in kinds]))
+    return table(["", *kinds], with_means(lines, len(kinds)))
+
+
+def structures_page(rows):
+    measured = rates(rows)
+
+    def best_of_others(contenders):
+        names = list(contenders)
+        return names[0], max((rate, name) for name, rate in contenders.items() if not name.startswith(names[0]))
+
+    def ratio(contenders):
+        own, (best, _) = best_of_others(contenders)
+        return contenders[own] / best
+
+    lines = []
+    for (scene, rays), contenders in measured.items():
+        own, (best, name) = best_of_others(contenders)
+        lines.append([scene, rays, number(contenders[own]), number(best), name])
+    return [
+        "## Against the structures of the papers",
+        "",
+        "How many times as fast as the fastest of them on each scene: rays a second, in batches, boundaries alone.",
+        "",
+        *by_scene(measured, ratio),
+        "<details><summary>Millions of rays a second</summary>",
+        "",
+        *table(["scene", "rays", "cells", "the best other", "which is"], lines),
+        "</details>",
+        "",
+    ]
+
+
+def embree_page(rows):
+    measured = {key: value for key, value in rates(rows).items() if " x" not in key[1]}
+    own = "tenon cells"
+
+    def against(contender, ours):
+        return by_scene(measured, lambda contenders: contenders[ours] / contenders[f"{contender} {MESH}"])
+
+    triangles = figures(rows, f"{MESH}: triangles")
+    lines = [
+        [scene, rays, f"{triangles[scene]:,.0f}", *(number(value[f"{own}{how}"]) for how in ("", ", ray by ray")),
+         *(number(value[f"embree {width} {MESH}"]) for width in (1, 8, 16))]
+        for (scene, rays), value in measured.items()
+    ]  # fmt: skip
+    return [
+        "## Against triangle meshes",
+        "",
+        "Embree 3.13 on a mesh of the same solid that strays a quarter of a pixel at most, 1920 pixels wide. How many times as",
+        "fast Tenon is on the solid itself, by the same stored rays; below 1 it is slower. In batches, against packets of 16:",
+        "",
+        *against("embree 16", own),
+        "In batches, against Embree's single rays:",
+        "",
+        *against("embree 1", own),
+        "One ray a call, against single rays:",
+        "",
+        *against("embree 1", f"{own}, ray by ray"),
+        "<details><summary>Millions of rays a second</summary>",
+        "",
+        *table(["scene", "rays", "triangles", "Tenon", "ray by ray", "Embree 1", "8", "16"], lines),
+        "</details>",
+        "",
+    ]
+
+
+def povray_page(rows):
+    measured = rates(rows)
+    return [
+        "## Against POV-Ray 3.7",
+        "",
+        "Whole pictures, shading included, on one core; both draw the same.",
+        "",
+        *by_scene(measured, lambda contenders: contenders["tenon cells"] / contenders["povray"]),
+    ]
+
+
+def figures_page(title, text, rows, unit=None):
+    names = list(dict.fromkeys(row["figure"] for row in rows if "figure" in row and unit in (None, row["unit"])))
+    scenes = dict.fromkeys(row["scene"] for row in rows if row.get("figure") in names)
+    columns = {name: figures(rows, name) for name in names}
+    lines = [[scene, *(number(columns[n][scene]) if scene in columns[n] else "" for n in names)] for scene in scenes]
+    return [f"## {title}", "", text, "", *table(["", *names], lines)]
+
+
+def growth_page(rows):
+    kinds = kinds_of(rates(rows))
+    lines = [
+        [scene, *(number(rates(rows)[scene, kind]["cells"]) for kind in kinds),
+         number(figures(rows, "building cells")[scene]), number(figures(rows, "memory of it")[scene])]
+        for scene in dict.fromkeys(scene for scene, _ in rates(rows))
+    ]  # fmt: skip
+    return [
+        "## Growth",
+        "",
+        "A box minus n spheres that take the same volume together: millions of rays a second, and what is built for them.",
+        "",
+        *table(["", *kinds, "building it, s", "memory, MiB"], lines),
+    ]
+
+
+PARTS = {
+    "structures": structures_page,
+    "embree": embree_page,
+    "povray": povray_page,
+    "start": lambda rows: figures_page(
+        "From the text to the first ray", "Against making the mesh and building Embree's tree over it.", rows
+    ),
+    "growth": growth_page,
+    "path": lambda rows: figures_page(
+        "Path tracing", "As the thesis renders: 8 samples a pixel, 20 surfaces along a path.", rows
+    ),
+    "cores": lambda rows: figures_page("Cores", "How many times as fast with all cores.", rows),
+}
+
+
+def machine():
+    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            return line.split(": ", 1)[1]
+    return platform.machine()
+
+
+def main(folder, page):
+    commit = subprocess.run(["git", "describe", "--always", "--dirty=+"], capture_output=True, text=True, check=True)
+    lines = [
+        "# What the bench says",
+        "",
+        "Written by `./dev bench`, which measures all of this on your machine; [CONTRIBUTING](../CONTRIBUTING.md) says what each",
+        "part does. Every figure is the median of five rounds in which the contenders took turns: ratios of one run can be",
+        "compared, seconds of two runs cannot.",
+        "",
+        f"{machine()}, {os.cpu_count()} cores; {datetime.date.today()}; commit {commit.stdout.strip()}.",
+        "",
+    ]
+    for part, write in PARTS.items():
+        if rows := load(folder, part):
+            lines += write(rows)
+    page.write_text("\n".join(lines).rstrip() + "\n")
+
+
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]))
