@@ -8,6 +8,7 @@
 
 #include "apps/program_test.h"
 #include "lab/claim.h"
+#include "lab/lab_json.h"
 #include "lab/page.h"
 #include "lab/ratios.h"
 #include "tenon/accel/accelerator.h"
@@ -225,6 +226,22 @@ TEST_F(Lab, PlotsAreDrawn) {
   EXPECT_FALSE(contains(drawing, "has no point"));
   // The legend is in the order of the curves' ends.
   EXPECT_LT(drawing.find(">ends<"), drawing.find(">goes on<"));
+}
+
+// The reason on a page is that of the verdict, as the paper's file has it now.
+TEST(LabPage, ReasonsFollowTheVerdict) {
+  Paper paper;
+  paper.claims = {Claim{"c", "text", "source", "ratio", 1, {}, "since A", "since B", "since C"}};
+  const auto page = [&](const std::optional<Measured>& measured) {
+    LabTable table;
+    table.id = "t";
+    table.claims = {judge(paper.claims[0], measured)};
+    return table_markdown(paper, lab_json(table, paper, {}, "full", 1));
+  };
+  EXPECT_TRUE(contains(page(Measured{2, 0}), "holds. since A"));
+  EXPECT_TRUE(contains(page(Measured{0.5, 0}), "does not hold. since B"));
+  EXPECT_TRUE(contains(page(Measured{1, 0.1}), "not comparable. since C"));
+  EXPECT_FALSE(contains(page(std::nullopt), "since"));
 }
 
 TEST_F(Lab, OneTableIsPrintedAsMarkdown) {

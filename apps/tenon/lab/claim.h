@@ -14,7 +14,7 @@ struct Claim {
   std::string source;  ///< where the paper says so
   std::string ratio;   ///< what is measured, in words
   std::optional<double> at_least, at_most;
-  std::string why_it_holds, why_it_fails;  ///< where the reason was looked into
+  std::string why_it_holds, why_it_fails, why_undecided;  ///< where the reason was looked into
 };
 
 enum class Verdict { holds, fails, not_comparable };

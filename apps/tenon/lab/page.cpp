@@ -131,7 +131,8 @@ std::string verdict_text(const Json& claim) {
 std::string reason(const Paper& paper, const Json& claim) {
   const auto found =
       std::find_if(paper.claims.begin(), paper.claims.end(), [&](const Claim& c) { return claim["id"] == c.id; });
-  if (found == paper.claims.end() || claim["verdict"] == "not comparable") return "";
+  if (found == paper.claims.end()) return "";
+  if (claim["verdict"] == "not comparable") return claim["measured"].is_null() ? "" : found->why_undecided;
   return claim["verdict"] == "holds" ? found->why_it_holds : found->why_it_fails;
 }
 

@@ -29,7 +29,7 @@ PaperTable read_table(const std::string& id, const Json& json) {
 }
 
 Claim read_claim(const Json& json) {
-  Claim claim{json.at("id"), json.at("text"), json.at("source"), json.at("ratio"), {}, {}, "", ""};
+  Claim claim{json.at("id"), json.at("text"), json.at("source"), json.at("ratio"), {}, {}, "", "", ""};
   claim.at_least = optional_number(json.value("at_least", Json()));
   claim.at_most = optional_number(json.value("at_most", Json()));
   if (!claim.at_least && !claim.at_most) throw std::runtime_error("the claim " + claim.id + " has no limit");
@@ -38,6 +38,7 @@ Claim read_claim(const Json& json) {
   }
   claim.why_it_holds = json.value("why_it_holds", "");
   claim.why_it_fails = json.value("why_it_fails", "");
+  claim.why_undecided = json.value("why_undecided", "");
   return claim;
 }
 
