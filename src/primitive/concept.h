@@ -32,7 +32,7 @@ Field(std::string_view, Unit, T P::*, std::string_view) -> Field<P, T>;
 ///   fields()               a tuple of Field
 ///   check()                why the values make no solid; empty when they do
 ///   support(n)             max n·p over the solid; gives bounds under any affine map, and slabs of any normal
-///   spans(ray, out)        appends all crossings, sorted (Crossing, LocalRay)
+///   spans(ray, out)        appends all crossings, sorted (Crossing, LocalRay); spans_from(), if any, from some t on
 ///   classify(box)          conservative: may say straddles, is never wrong
 ///   normal(point, face)    outward, any length but zero
 template <class P>

@@ -26,11 +26,25 @@ double weigh(double a, double extent) {
   return a == 0 ? 0 : std::fabs(a) * extent;
 }
 
-void spans(const PrimitiveStore& store, PrimitiveId id, const Placement::MappedRay& mapped, Spans& out) {
-  const std::size_t begin = out.size();
-  spans(store, id, mapped.ray, out);
+// Appends a primitive's crossings along a line: all of them, or those from t = begin on where it can tell them apart.
+void find_spans(const PrimitiveStore& store, PrimitiveId id, const LocalRay& ray, double begin, Spans& out) {
+  if (!is_finite(ray) || ray.direction == Vec3{}) return;
+  visit(store.lists(), id, [&](const auto& primitive) {
+    if constexpr (requires { primitive.spans_from(ray, begin, out); }) {
+      primitive.spans_from(ray, begin, out);
+    } else {
+      primitive.spans(ray, out);
+    }
+  });
+}
+
+// The same from t = begin of the ray that was mapped.
+void find_spans(const PrimitiveStore& store, PrimitiveId id, const Placement::MappedRay& mapped, double begin,
+                Spans& out) {
+  const std::size_t first = out.size();
+  find_spans(store, id, mapped.ray, begin - mapped.shift, out);
   if (mapped.shift == 0) return;
-  for (std::size_t i = begin; i < out.size(); ++i) {
+  for (std::size_t i = first; i < out.size(); ++i) {
     Crossing& c = out[i];
     if (!std::isfinite(c.t)) continue;
     c.t += mapped.shift;
@@ -41,17 +55,16 @@ void spans(const PrimitiveStore& store, PrimitiveId id, const Placement::MappedR
 }  // namespace
 
 void spans(const PrimitiveStore& store, PrimitiveId id, const LocalRay& ray, Spans& out) {
-  if (!is_finite(ray) || ray.direction == Vec3{}) return;
-  visit(store.lists(), id, [&](const auto& primitive) { primitive.spans(ray, out); });
+  find_spans(store, id, ray, -Box3::inf, out);
 }
 
 void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const Ray& ray, double tolerance,
            int on_face, Spans& out) {
-  spans(store, id, placement.to_local(ray, tolerance, on_face), out);
+  find_spans(store, id, placement.to_local(ray, tolerance, on_face), 0, out);
 }
 
 void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const LocalRay& ray, Spans& out) {
-  spans(store, id, placement.to_local(ray), out);
+  find_spans(store, id, placement.to_local(ray), -Box3::inf, out);
 }
 
 double support(const PrimitiveStore& store, PrimitiveId id, const Vec3& n) {

@@ -79,7 +79,21 @@ void Mesh::prepare() {
   for (const TriangleMesh::Corners& corners : mesh->triangles) {
     for (const std::uint32_t v : corners) index->bounds = tenon::hull(index->bounds, mesh->vertices[v]);
   }
+  if (!hull) {
+    const auto walk = [&index](const MeshLine& line, FunctionRef<void(std::uint32_t)> visit) {
+      index->walk(line, -Box3::inf, visit);
+    };
+    index->clear = ClearCells(*mesh, index->bounds, walk);
+  }
   index_ = std::move(index);
+}
+
+void Mesh::Index::walk(const MeshLine& line, double begin, FunctionRef<void(std::uint32_t)> visit) const {
+  if (const auto* bvh = std::get_if<MeshBvh>(&structure)) {
+    bvh->walk(line, begin, visit);
+  } else {
+    std::get<MeshKdTree>(structure).walk(line, visit);
+  }
 }
 
 std::string Mesh::check() const {

@@ -8,6 +8,7 @@
 
 #include "primitive/concept.h"
 #include "primitive/mesh_bvh.h"
+#include "primitive/mesh_clear_cells.h"
 #include "primitive/mesh_kd_tree.h"
 
 namespace tenon {
@@ -36,7 +37,10 @@ class Mesh {
 
   /// Every crossing of the line with the solid, whatever it grazes: which triangles the line meets is decided exactly
   /// (edge_sign), so each edge and each vertex is crossed once or not at all. Faces: the triangles, by index.
-  void spans(const LocalRay& ray, Spans& out) const;
+  void spans(const LocalRay& ray, Spans& out) const { spans_from(ray, -Box3::inf, out); }
+  /// The same, but for crossings before `begin`: an entrance at -inf may stand for all of them where the line is inside
+  /// by then.
+  void spans_from(const LocalRay& ray, double begin, Spans& out) const;
   Region classify(const LocalBox& box) const;
   /// Between the corners' normals where the mesh has them.
   std::uint32_t face_count() const { return static_cast<std::uint32_t>(mesh->triangles.size()); }
@@ -47,6 +51,9 @@ class Mesh {
   struct Index {
     std::variant<MeshBvh, MeshKdTree> structure;
     Box3 bounds;
+    ClearCells clear;
+
+    void walk(const MeshLine& line, double begin, FunctionRef<void(std::uint32_t)> visit) const;
   };
   static SharedMesh unit_tetrahedron();
   Vec3 flat_normal(std::uint32_t face) const;

@@ -1,5 +1,6 @@
 #include "primitive/mesh_bvh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -26,17 +27,46 @@ std::vector<Box3> boxes_of(const TriangleMesh& mesh) {
   return boxes;
 }
 
+// What the difference of two doubles rounds by, and room for taking it off.
+double outward(double value) {
+  return 0x1p-52 * std::fabs(value);
+}
+
 }  // namespace
+
+Box3 MeshBvh::Frame::box_from_outside(const Box3& box) const {
+  Box3 inner{scale * (box.lower - center), scale * (box.upper - center)};
+  for (int axis = 0; axis < 3; ++axis) {
+    inner.lower[axis] -= outward(inner.lower[axis]);
+    inner.upper[axis] += outward(inner.upper[axis]);
+  }
+  return inner;
+}
+
+Box3 MeshBvh::Frame::box_to_outside(const Box3& box) const {
+  Box3 outer{center + (1 / scale) * box.lower, center + (1 / scale) * box.upper};
+  for (int axis = 0; axis < 3; ++axis) {
+    outer.lower[axis] -= outward(outer.lower[axis]);
+    outer.upper[axis] += outward(outer.upper[axis]);
+  }
+  return outer;
+}
 
 class MeshBvh::Builder {
  public:
-  Builder(std::vector<Box3> boxes, MeshBvh& bvh) : bvh_(bvh), boxes_(std::move(boxes)) {
-    bvh_.order_.resize(boxes_.size());
-    std::iota(bvh_.order_.begin(), bvh_.order_.end(), 0);
+  Builder(std::span<const Box3> boxes, MeshBvh& bvh) : bvh_(bvh), boxes_(boxes), order_(boxes.size()) {
+    std::iota(order_.begin(), order_.end(), 0);
   }
 
   void build() {
-    if (!boxes_.empty()) add_node({0, boxes_.size()}, 0);
+    if (boxes_.empty()) return;
+    Box3 bounds;
+    for (const Box3& box : boxes_) bounds = hull(bounds, box);
+    bvh_.frame_.center = bounds.center();
+    const double reach = max_component(max(bounds.upper - bvh_.frame_.center, bvh_.frame_.center - bounds.lower));
+    // A mesh that is a point is fine in any frame.
+    bvh_.frame_.scale = reach > 0 ? std::ldexp(1.0, std::clamp(-1 - std::ilogb(reach), -1000, 1000)) : 1;
+    add_node({0, boxes_.size()}, 0);
   }
 
  private:
@@ -44,28 +74,48 @@ class MeshBvh::Builder {
     std::size_t begin, end;
     std::size_t size() const { return end - begin; }
   };
+  struct Part {
+    Range range;
+    Box3 box;
+  };
+
+  Part part_of(const Range& range) const {
+    Part part{range, {}};
+    for (std::size_t k = range.begin; k < range.end; ++k) part.box = hull(part.box, boxes_[order_[k]]);
+    return part;
+  }
+
+  // The part to be opened: of those that are no leaf the one that most lines meet.
+  Part* largest_part(std::span<Part> parts) const {
+    Part* largest = nullptr;
+    for (Part& part : parts) {
+      if (part.range.size() <= bvh_.leaf_size_) continue;
+      if (largest == nullptr || part.box.surface_area() > largest->box.surface_area()) largest = &part;
+    }
+    return largest;
+  }
 
   std::uint32_t add_node(const Range& range, int depth) {
     const std::size_t index = bvh_.nodes_.size();
     bvh_.nodes_.emplace_back();
-    std::array<Range, width> parts{range};
+    std::array<Part, width> parts{part_of(range)};
     std::size_t count = 1;
     while (count < width) {
-      const auto largest = std::max_element(parts.begin(), parts.begin() + count,
-                                            [](const Range& a, const Range& b) { return a.size() < b.size(); });
-      if (largest->size() <= leaf_size) break;
-      const std::size_t middle = split(*largest, depth);
-      parts[count++] = {middle, largest->end};
-      largest->end = middle;
+      Part* const opened = largest_part({parts.data(), count});
+      if (opened == nullptr) break;
+      const Range whole = opened->range;
+      const std::size_t middle = split(whole, depth);
+      *opened = part_of({whole.begin, middle});
+      parts[count++] = part_of({middle, whole.end});
     }
     for (std::size_t i = 0; i < width; ++i) {
       Box3 box;
       Child child;
       if (i < count) {
-        for (std::size_t k = parts[i].begin; k < parts[i].end; ++k) box = hull(box, boxes_[bvh_.order_[k]]);
-        child = parts[i].size() <= leaf_size
-                    ? Child{static_cast<std::uint32_t>(parts[i].begin), static_cast<std::uint32_t>(parts[i].size())}
-                    : Child{add_node(parts[i], depth + 1), 0};
+        box = bvh_.frame_.box_from_outside(parts[i].box);
+        const Range& own = parts[i].range;
+        child =
+            own.size() <= bvh_.leaf_size_ ? Child{add_leaf(own) | Child::leaf_bit} : Child{add_node(own, depth + 1)};
       }
       Node& node = bvh_.nodes_[index];
       node.children[i] = child;
@@ -77,15 +127,24 @@ class MeshBvh::Builder {
     return static_cast<std::uint32_t>(index);
   }
 
+  std::uint32_t add_leaf(const Range& range) {
+    const std::size_t place = bvh_.order_.size();
+    bvh_.order_.resize(place + bvh_.leaf_size_, none);
+    std::copy(order_.begin() + static_cast<std::ptrdiff_t>(range.begin),
+              order_.begin() + static_cast<std::ptrdiff_t>(range.end),
+              bvh_.order_.begin() + static_cast<std::ptrdiff_t>(place));
+    return static_cast<std::uint32_t>(place / bvh_.leaf_size_);
+  }
+
   // Reorders a range into two parts, none of them empty.
   // @return where the second begins
   std::size_t split(const Range& range, int depth) {
     Box3 centers;
-    for (std::size_t k = range.begin; k < range.end; ++k) centers = hull(centers, boxes_[bvh_.order_[k]].center());
+    for (std::size_t k = range.begin; k < range.end; ++k) centers = hull(centers, boxes_[order_[k]].center());
     const Vec3 size = centers.size();
     const std::size_t half = range.begin + range.size() / 2;
     const Cut cut = depth < deepest_by_cost ? best_cut(range, centers) : Cut{};
-    const auto begin = bvh_.order_.begin();
+    const auto begin = order_.begin();
     const auto at = [begin](std::size_t i) { return begin + static_cast<std::ptrdiff_t>(i); };
     if (cut.cost < Box3::inf) {
       const auto middle = std::partition(at(range.begin), at(range.end), [&](std::uint32_t t) {
@@ -121,7 +180,7 @@ class MeshBvh::Builder {
       std::array<Box3, bins> boxes;
       std::array<std::size_t, bins> counts{};
       for (std::size_t k = range.begin; k < range.end; ++k) {
-        const Box3& box = boxes_[bvh_.order_[k]];
+        const Box3& box = boxes_[order_[k]];
         const std::size_t bin = bin_of(box.center()[axis], centers, axis);
         boxes[bin] = hull(boxes[bin], box);
         ++counts[bin];
@@ -147,18 +206,32 @@ class MeshBvh::Builder {
   }
 
   MeshBvh& bvh_;
-  std::vector<Box3> boxes_;
+  std::span<const Box3> boxes_;
+  std::vector<std::uint32_t> order_;
 };
 
-MeshBvh::MeshBvh(const TriangleMesh& mesh) : MeshBvh(boxes_of(mesh)) {}
-
-MeshBvh::MeshBvh(std::vector<Box3> boxes) {
-  Builder(std::move(boxes), *this).build();
+MeshBvh::MeshBvh(const TriangleMesh& mesh) : leaf_size_(width) {
+  Builder(boxes_of(mesh), *this).build();
+  fill_blocks(mesh);
 }
 
-Box3 MeshBvh::box_of(const Node& node, std::size_t i) const {
-  return {{node.lower[0][i], node.lower[1][i], node.lower[2][i]},
-          {node.upper[0][i], node.upper[1][i], node.upper[2][i]}};
+// Who meets a box has a solid to be met within it, which costs more than a node.
+MeshBvh::MeshBvh(std::span<const Box3> boxes) {
+  Builder(boxes, *this).build();
+}
+
+void MeshBvh::fill_blocks(const TriangleMesh& mesh) {
+  blocks_.resize(order_.size() / width);
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    if (order_[k] == none) continue;
+    const std::array<Vec3, 3> corners = mesh.corners(order_[k]);
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const Vec3 p = frame_.scale * (corners[corner] - frame_.center);
+      auto& axes = blocks_[k / width].corners[corner];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        axes[axis][k % width] = static_cast<float>(p[static_cast<int>(axis)]);
+    }
+  }
 }
 
 double MeshBvh::support(const TriangleMesh& mesh, const Vec3& n) const {
@@ -183,15 +256,16 @@ double MeshBvh::support(const TriangleMesh& mesh, const Vec3& n) const {
     const std::size_t first = top;
     for (std::size_t i = 0; i < width; ++i) {
       const Child child = node.children[i];
-      if (child.count == 0 && child.first == 0) continue;
-      const double bound = over_box(box_of(node, i));
+      if (child.is_none()) continue;
+      const double bound = over_box(frame_.box_to_outside(box_of(node, i)));
       if (!(bound > best)) continue;
-      if (child.count == 0) {
-        stack[top++] = {child.first, bound};
+      if (!child.is_leaf()) {
+        stack[top++] = {child.index(), bound};
         continue;
       }
-      for (std::uint32_t k = 0; k < child.count; ++k) {
-        for (const Vec3& p : mesh.corners(order_[child.first + k])) best = std::max(best, dot(n, p));
+      for (const std::uint32_t triangle : leaf(child.index())) {
+        if (triangle == none) continue;
+        for (const Vec3& p : mesh.corners(triangle)) best = std::max(best, dot(n, p));
       }
     }
     std::sort(stack.begin() + static_cast<std::ptrdiff_t>(first), stack.begin() + static_cast<std::ptrdiff_t>(top),

@@ -2,28 +2,34 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "primitive/mesh_line.h"
+#include "tenon/base/function_ref.h"
 #include "tenon/math/box3.h"
 #include "tenon/primitive/triangle_mesh.h"
 
 namespace tenon {
 
-/// A bounding volume hierarchy over the triangles of a mesh, four children a node, built top down by the surface area
+/// A bounding volume hierarchy over the triangles of a mesh, eight children a node, built top down by the surface area
 /// heuristic over sixteen bins (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007).
+///
+/// Boxes and triangles are in single precision, in a frame of their own: around the middle, scaled to about 1. They
+/// only leave out what a line certainly misses, with all that the line, the frame and single precision are wrong by.
 class MeshBvh {
  public:
   MeshBvh() = default;
   explicit MeshBvh(const TriangleMesh& mesh);
   /// Over any boxes, which then stand for the triangles below.
-  explicit MeshBvh(std::vector<Box3> boxes);
+  explicit MeshBvh(std::span<const Box3> boxes);
 
-  /// Calls visit(triangle) for each triangle whose box the line meets, with all that it may be wrong by.
-  template <class Visitor>
-  void walk(const MeshLine& line, Visitor&& visit) const;
+  /// Calls visit(triangle) for each triangle that the line may meet, with all that it may be wrong by, and for some
+  /// whose box it may meet.
+  /// @param begin  those whose box the line leaves before this t may be left out; |t| is at most line.farthest, or -inf
+  void walk(const MeshLine& line, double begin, FunctionRef<void(std::uint32_t)> visit) const;
 
-  /// Calls visit(triangle), which returns whether to go on, for each triangle whose box meets this one.
+  /// Calls visit(triangle), which returns whether to go on, for each triangle whose leaf meets this box.
   /// @return false when a visit ended the walk
   template <class Visitor>
   bool walk(const Box3& box, Visitor&& visit) const;
@@ -31,68 +37,71 @@ class MeshBvh {
   /// The largest n·p over the vertices.
   double support(const TriangleMesh& mesh, const Vec3& n) const;
 
-  std::size_t bytes() const { return nodes_.size() * sizeof(Node) + order_.size() * sizeof(std::uint32_t); }
+  std::size_t bytes() const {
+    return nodes_.size() * sizeof(Node) + order_.size() * sizeof(std::uint32_t) + blocks_.size() * sizeof(Block);
+  }
 
- private:
-  static constexpr std::size_t width = 4;
-  static constexpr std::size_t leaf_size = 4;
-  // Each level pushes three more than it takes, and splits its triangles at least in halves once it is this deep.
+  static constexpr std::size_t width = 8;
+  // Each level pushes seven more than it takes, and splits its triangles at least in halves once it is this deep.
   static constexpr int deepest_by_cost = 48;
-  static constexpr std::size_t stack_size = 3 * (deepest_by_cost + 32) + 1;
+  static constexpr std::size_t stack_size = (width - 1) * (deepest_by_cost + 32) + 1;
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
 
-  // A child: a node, or the triangles order_[first, first + count).
+  /// A node, a leaf, or nothing: the root is nobody's child.
   struct Child {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;  // 0 for a node
+    static constexpr std::uint32_t leaf_bit = 0x80000000;
+    std::uint32_t bits = 0;
+
+    bool is_none() const { return bits == 0; }
+    bool is_leaf() const { return (bits & leaf_bit) != 0; }
+    std::uint32_t index() const { return bits & ~leaf_bit; }
   };
-  // Boxes in float, rounded outward; a child that is not there has an empty one.
-  struct alignas(64) Node {
+  /// Boxes rounded outward; a child that is not there has an empty one.
+  struct alignas(32) Node {
     std::array<std::array<float, width>, 3> lower, upper;
     std::array<Child, width> children;
   };
+  /// The triangles of a leaf: by corner, by axis.
+  struct alignas(32) Block {
+    std::array<std::array<std::array<float, width>, 3>, 3> corners;
+  };
+  /// Where the frame of boxes and triangles lies: a point of it is scale * (p - center).
+  struct Frame {
+    Vec3 center;
+    double scale = 1;  ///< a power of two
 
-  class Builder;
-  Box3 box_of(const Node& node, std::size_t i) const;
+    Box3 box_from_outside(const Box3& box) const;
+    Box3 box_to_outside(const Box3& box) const;
+  };
 
-  std::vector<Node> nodes_;
-  std::vector<std::uint32_t> order_;
-};
-
-template <class Visitor>
-void MeshBvh::walk(const MeshLine& line, Visitor&& visit) const {
-  if (nodes_.empty()) return;
-  const MeshSlabs slabs(line);
-  std::array<std::uint32_t, stack_size> stack;
-  std::size_t top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const Node& node = nodes_[stack[--top]];
-    std::array<double, width> enter, leave;
-    enter.fill(-Box3::inf);
-    leave.fill(Box3::inf);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto& near = slabs.forward[axis] ? node.lower[axis] : node.upper[axis];
-      const auto& far = slabs.forward[axis] ? node.upper[axis] : node.lower[axis];
-      for (std::size_t i = 0; i < width; ++i) {
-        enter[i] = std::max(enter[i], (near[i] - slabs.near_begin[axis]) * slabs.inverse[axis]);
-        leave[i] = std::min(leave[i], (far[i] - slabs.far_begin[axis]) * slabs.inverse[axis]);
-      }
-    }
-    for (std::size_t i = 0; i < width; ++i) {
-      if (enter[i] > leave[i]) continue;
-      const Child child = node.children[i];
-      if (child.count == 0) {
-        if (child.first != 0) stack[top++] = child.first;
-      } else {
-        for (std::uint32_t k = 0; k < child.count; ++k) visit(order_[child.first + k]);
-      }
-    }
+  const Frame& frame() const { return frame_; }
+  std::span<const Node> nodes() const { return nodes_; }
+  /// Of a mesh one for each leaf, otherwise none.
+  std::span<const Block> blocks() const { return blocks_; }
+  /// The triangles of a leaf; `none` where it is not full.
+  std::span<const std::uint32_t> leaf(std::uint32_t index) const {
+    return {order_.data() + index * leaf_size_, leaf_size_};
   }
-}
+
+ private:
+  class Builder;
+  static Box3 box_of(const Node& node, std::size_t i) {
+    return {{node.lower[0][i], node.lower[1][i], node.lower[2][i]},
+            {node.upper[0][i], node.upper[1][i], node.upper[2][i]}};
+  }
+  void fill_blocks(const TriangleMesh& mesh);
+
+  Frame frame_;
+  std::size_t leaf_size_ = 1;
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> order_;  // leaf by leaf
+  std::vector<Block> blocks_;
+};
 
 template <class Visitor>
 bool MeshBvh::walk(const Box3& box, Visitor&& visit) const {
   if (nodes_.empty()) return true;
+  const Box3 sought = frame_.box_from_outside(box);
   std::array<std::uint32_t, stack_size> stack;
   std::size_t top = 0;
   stack[top++] = 0;
@@ -100,13 +109,13 @@ bool MeshBvh::walk(const Box3& box, Visitor&& visit) const {
     const Node& node = nodes_[stack[--top]];
     for (std::size_t i = 0; i < width; ++i) {
       const Child child = node.children[i];
-      if (!box_of(node, i).overlaps(box)) continue;
-      if (child.count == 0) {
-        if (child.first != 0) stack[top++] = child.first;
-      } else {
-        for (std::uint32_t k = 0; k < child.count; ++k) {
-          if (!visit(order_[child.first + k])) return false;
-        }
+      if (child.is_none() || !box_of(node, i).overlaps(sought)) continue;
+      if (!child.is_leaf()) {
+        stack[top++] = child.index();
+        continue;
+      }
+      for (const std::uint32_t triangle : leaf(child.index())) {
+        if (triangle != none && !visit(triangle)) return false;
       }
     }
   }

@@ -125,8 +125,8 @@ double bound_of(double t, double lo, double hi) {
 // Walks along the line, counting how often the mesh winds around the place.
 class SolidSweep {
  public:
-  SolidSweep(std::vector<Boundary>& boundaries, double scale, Spans& out)
-      : boundaries_(boundaries), scale_(scale), out_(out) {
+  SolidSweep(std::vector<Boundary>& boundaries, double scale, int winding, Spans& out)
+      : boundaries_(boundaries), scale_(scale), out_(out), winding_(winding), starts_inside_(winding > 0) {
     std::sort(boundaries_.begin(), boundaries_.end(),
               [](const Boundary& a, const Boundary& b) { return a.t != b.t ? a.t < b.t : a.triangle < b.triangle; });
   }
@@ -148,7 +148,7 @@ class SolidSweep {
       if (before == 1 && winding_ == 0) leave(b);
     }
     // Senses are exact, so as many enter as leave; numbers at the ends of the range are all that can break it.
-    if (out_.size() % 2 != 0) out_.pop_back();
+    if (!out_.empty() && (out_.size() % 2 != 0) != starts_inside_) out_.pop_back();
   }
 
  private:
@@ -177,9 +177,11 @@ class SolidSweep {
 
   // Each exact end lies on its side of the other, so neither interval needs to reach past the other's.
   void leave(const Boundary& b) {
-    Crossing& entrance = out_[entrance_];
-    const double t = entrance.t / scale_;
-    entrance.bound = scale_ * bound_of(t, entrance_lo_, std::min(entrance_hi_, b.hi));
+    if (entrance_lo_ > -Box3::inf) {
+      Crossing& entrance = out_[entrance_];
+      const double t = entrance.t / scale_;
+      entrance.bound = scale_ * bound_of(t, entrance_lo_, std::min(entrance_hi_, b.hi));
+    }
     add(b.t, std::max(b.lo, entrance_lo_), b.hi, b.triangle, false);
   }
 
@@ -204,10 +206,11 @@ class SolidSweep {
   std::vector<Boundary>& boundaries_;
   double scale_;
   Spans& out_;
-  int winding_ = 0;
+  int winding_;
+  bool starts_inside_;
   double last_t_ = 0;
   std::size_t entrance_ = 0;
-  double entrance_lo_ = 0, entrance_hi_ = 0;
+  double entrance_lo_ = -Box3::inf, entrance_hi_ = 0;  // of where the line was last found to enter, if anywhere
 };
 
 bool all_finite(const Spans& out) {
@@ -215,21 +218,38 @@ bool all_finite(const Spans& out) {
                      [](const Crossing& c) { return std::isfinite(c.t) && !std::isnan(c.bound); });
 }
 
+// Whether the line meets a candidate behind a place that the boxes of all triangles are away from. If its interval does
+// not tell, its box does, which the line passes on one side of the place.
+bool lies_behind(const MeshLine& line, const TriangleMesh& mesh, double place, MeshCandidate& candidate) {
+  if (candidate.lo > place) return true;
+  if (candidate.hi < place) return false;
+  const auto [a, b, c] = mesh.corners(candidate.triangle);
+  double enter, leave;
+  MeshSlabs(line).clip({min(a, min(b, c)), max(a, max(b, c))}, enter, leave);
+  if (leave < place) return false;
+  candidate.lo = std::max(candidate.lo, place);
+  candidate.t = std::max(candidate.t, place);
+  return true;
+}
+
 }  // namespace
 
-void emit_solid(const TriangleMesh& mesh, std::vector<MeshCandidate>& candidates, double scale, int on_face,
-                Spans& out) {
-  std::vector<Boundary> boundaries;
+void emit_solid(const TriangleMesh& mesh, std::vector<MeshCandidate>& candidates, double scale, int winding,
+                int on_face, Spans& out) {
+  thread_local std::vector<Boundary> boundaries;
+  boundaries.clear();
   if (std::all_of(candidates.begin(), candidates.end(), [](const MeshCandidate& c) { return c.is_certain; })) {
     for (const MeshCandidate& c : candidates) boundaries.push_back({c.t, c.lo, c.hi, c.triangle, c.sense});
   } else {
     boundaries = boundaries_in_doubt(mesh, candidates);
   }
   if (on_face >= 0) put_start_at_zero(boundaries, candidates, static_cast<std::uint32_t>(on_face));
-  Spans crossings;
-  SolidSweep(boundaries, scale, crossings).run();
+  thread_local Spans crossings;
+  crossings.clear();
+  SolidSweep(boundaries, scale, winding, crossings).run();
   // A ray so far off that its products overflow.
   if (!all_finite(crossings)) return;
+  if (crossings.size() % 2 != 0) out.push_back({-Box3::inf, 0, crossings.front().face, true, false});
   out.insert(out.end(), crossings.begin(), crossings.end());
 }
 
@@ -247,16 +267,16 @@ void emit_surface(std::vector<MeshCandidate>& candidates, double scale, int on_f
   out.insert(out.end(), crossings.begin(), crossings.end());
 }
 
-void Mesh::spans(const LocalRay& ray, Spans& out) const {
+void Mesh::spans_from(const LocalRay& ray, double begin, Spans& out) const {
   const MeshLine line(ray, index_->bounds);
-  std::vector<MeshCandidate> candidates;
-  const auto find_candidates = [&](const auto& structure) {
-    structure.walk(line, [&](std::uint32_t triangle) {
-      MeshCandidate candidate;
-      if (find_candidate(line, *mesh, triangle, candidate)) candidates.push_back(candidate);
-    });
-  };
-  std::visit(find_candidates, index_->structure);
+  const auto known = index_->clear.find_before(line, begin / line.scale);
+  thread_local std::vector<MeshCandidate> candidates;
+  candidates.clear();
+  index_->walk(line, known ? known->t : -Box3::inf, [&](std::uint32_t triangle) {
+    MeshCandidate candidate;
+    if (!find_candidate(line, *mesh, triangle, candidate)) return;
+    if (!known || lies_behind(line, *mesh, known->t, candidate)) candidates.push_back(candidate);
+  });
   if (candidates.empty()) return;
   // Each once, in an order that does not depend on the structure.
   std::sort(candidates.begin(), candidates.end(),
@@ -264,7 +284,7 @@ void Mesh::spans(const LocalRay& ray, Spans& out) const {
   const auto is_same = [](const MeshCandidate& a, const MeshCandidate& b) { return a.triangle == b.triangle; };
   candidates.erase(std::unique(candidates.begin(), candidates.end(), is_same), candidates.end());
   if (hull) return emit_surface(candidates, line.scale, ray.on_face, out);
-  emit_solid(*mesh, candidates, line.scale, ray.on_face, out);
+  emit_solid(*mesh, candidates, line.scale, known ? known->winding : 0, ray.on_face, out);
 }
 
 }  // namespace tenon

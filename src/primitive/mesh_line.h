@@ -85,14 +85,20 @@ struct MeshSlabs {
   }
 
   bool meets(const Box3& box) const {
-    double enter = -Box3::inf, leave = Box3::inf;
+    double enter, leave;
+    clip(box, enter, leave);
+    // An infinite growth gives no order; then everything is met.
+    return !(enter > leave);
+  }
+  /// The part of the line within the box.
+  void clip(const Box3& box, double& enter, double& leave) const {
+    enter = -Box3::inf;
+    leave = Box3::inf;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double lower = box.lower[static_cast<int>(axis)], upper = box.upper[static_cast<int>(axis)];
       enter = std::max(enter, ((forward[axis] ? lower : upper) - near_begin[axis]) * inverse[axis]);
       leave = std::min(leave, ((forward[axis] ? upper : lower) - far_begin[axis]) * inverse[axis]);
     }
-    // An infinite growth gives no order; then everything is met.
-    return !(enter > leave);
   }
 };
 

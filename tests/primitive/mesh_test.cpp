@@ -3,6 +3,8 @@
 #include "primitive/check_crossings.h"
 #include "primitive/dispatch.h"
 #include "primitive/edge_sign.h"
+#include "primitive/mesh.h"
+#include "primitive/mesh_crossings.h"
 #include "primitive/mesh_edges.h"
 #include "support/meshes.h"
 
@@ -138,6 +140,116 @@ TEST(Mesh, TheKdTreeFindsWhatTheHierarchyFinds) {
       }
     }
   }
+}
+
+// Meshes whose vertices lie on a lattice, one of which overlaps itself, one far from the origin of its frame, one flat.
+std::vector<TriangleMesh> lattice_meshes(Random& random) {
+  std::vector<TriangleMesh> meshes{
+      meshes::ring(1, 0.4, 24, 12), meshes::star(3, [&](const Vec3&) { return random.uniform(0.5, 1); }),
+      meshes::together(meshes::star(3, [](const Vec3&) { return 1.0; }), meshes::ring(1, 0.5, 16, 8)),
+      meshes::star(3, [](const Vec3&) { return 1.0; }), meshes::ring(1, 0.25, 16, 8)};
+  for (Vec3& v : meshes[3].vertices) v += Vec3{0x1p16, -0x1p18, 0};
+  for (Vec3& v : meshes[4].vertices) v.z *= 0x1p-6;
+  for (TriangleMesh& mesh : meshes) {
+    for (Vec3& v : mesh.vertices) {
+      v = 0x1p-12 * Vec3{std::round(0x1p12 * v.x), std::round(0x1p12 * v.y), std::round(0x1p12 * v.z)};
+    }
+  }
+  std::erase_if(meshes, [](const TriangleMesh& mesh) { return find_open_edges(mesh.triangles).has_value(); });
+  return meshes;
+}
+
+// Through a vertex, the middle of an edge or the inside of a triangle, some along an axis or two.
+LocalRay ray_at_triangle(const TriangleMesh& mesh, Random& random) {
+  const auto [a, b, c] = mesh.corners(static_cast<std::size_t>(random.below(static_cast<int>(mesh.triangles.size()))));
+  const int what = random.below(3);
+  const Vec3 target = what == 0 ? a : what == 1 ? 0.5 * a + 0.5 * b : 0.3 * a + 0.3 * b + 0.4 * c;
+  Vec3 direction = random.magnitude(-3, 3) * random.direction();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (random.chance(0.2)) direction[axis] = 0;
+  }
+  if (direction == Vec3{}) direction.x = 1;
+  LocalRay ray;
+  ray.origin = target - random.uniform(-2, 2) / length(direction) * direction;
+  ray.direction = direction;
+  return ray;
+}
+
+Box3 bounds_of(const TriangleMesh& mesh) {
+  Box3 bounds;
+  for (const Vec3& v : mesh.vertices) bounds = hull(bounds, v);
+  return bounds;
+}
+
+// Single precision only leaves out what the line misses, whatever is known of the line.
+TEST(Mesh, TheHierarchyFindsEveryTriangleThatALineMayCross) {
+  Random random(7);
+  std::size_t found = 0, visited = 0;
+  for (const TriangleMesh& mesh : lattice_meshes(random)) {
+    const MeshBvh bvh(mesh);
+    const Box3 bounds = bounds_of(mesh);
+    for (int i = 0; i < 1000; ++i) {
+      LocalRay ray = ray_at_triangle(mesh, random);
+      const double error = i % 4 == 0 ? random.magnitude(-16, 1) : 0;
+      ray.origin_error = error * random.in_cube();
+      ray.origin_error = max(ray.origin_error, -ray.origin_error);
+      if (i % 16 == 0) ray.direction_error = random.magnitude(-16, -3) * length(ray.direction) * Vec3{1, 1, 1};
+      if (i % 10 == 0) ray.origin = ray.origin - random.magnitude(1, 14) / length(ray.direction) * ray.direction;
+      const MeshLine line(ray, bounds);
+      MeshCandidate candidate;
+      std::vector<bool> seen(mesh.triangles.size());
+      bvh.walk(line, -Box3::inf, [&](std::uint32_t t) {
+        EXPECT_FALSE(seen[t]);
+        seen[t] = true;
+        ++visited;
+      });
+      for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (!find_candidate(line, mesh, t, candidate)) continue;
+        ++found;
+        ASSERT_TRUE(seen[t]) << describe(ray.origin, ray.direction);
+      }
+    }
+  }
+  // And it does leave out nearly all others.
+  EXPECT_LT(visited, 2 * found);
+}
+
+// What a line crosses before it starts is told by how often the mesh winds around the start.
+TEST(Mesh, CrossingsFromAStartOnAreThoseOfTheWholeLine) {
+  Random random(8);
+  int shortened = 0;
+  for (const TriangleMesh& mesh : lattice_meshes(random)) {
+    for (const MeshStructure local : {MeshStructure::bvh, MeshStructure::kd}) {
+      TriangleMesh copy = mesh;
+      copy.local = local;
+      Mesh solid;
+      solid.mesh = meshes::share(std::move(copy));
+      solid.prepare();
+      for (int i = 0; i < 2000; ++i) {
+        const LocalRay ray = ray_at_triangle(mesh, random);
+        const double begin = random.uniform(-1, 4) / length(ray.direction);
+        Spans whole, some;
+        solid.spans(ray, whole);
+        solid.spans_from(ray, begin, some);
+        const auto is_near = [begin](const Crossing& c) { return std::fabs(c.t - begin) <= c.bound; };
+        if (std::any_of(whole.begin(), whole.end(), is_near)) continue;
+        ASSERT_FALSE(check_order(some)) << *check_order(some) << describe(some);
+        shortened += some.size() < whole.size() || (!some.empty() && some.front().t == -Box3::inf);
+        bool inside = false;
+        for (const Crossing& c : some) inside ^= c.t < begin;
+        for (const Crossing& c : whole) inside ^= c.t < begin;
+        ASSERT_FALSE(inside) << describe(whole) << describe(some);
+        std::erase_if(whole, [begin](const Crossing& c) { return c.t < begin; });
+        std::erase_if(some, [begin](const Crossing& c) { return c.t < begin; });
+        ASSERT_EQ(whole.size(), some.size()) << describe(ray.origin, ray.direction);
+        for (std::size_t k = 0; k < whole.size(); ++k) {
+          EXPECT_LE(std::fabs(whole[k].t - some[k].t), whole[k].bound);
+          EXPECT_EQ(whole[k].entering, some[k].entering);
+        }
+      }
+    }
+  }
+  EXPECT_GT(shortened, 5000);
 }
 
 TEST(EdgeSign, IsExactAndOfOppositeSignBackwards) {
