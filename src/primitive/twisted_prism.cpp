@@ -110,9 +110,17 @@ double TwistedPrism::support(const Vec3& n) const {
 }
 
 Region TwistedPrism::classify(const LocalBox& box) const {
-  // A circle around the place of the box decides; parts of a box have smaller ones.
+  // A circle around the place of the box decides; parts of a box have smaller ones. Where a wall passes between two
+  // corners no part needs to be looked at.
   constexpr int halvings = 24;
   BoxSearch search;
+  if (const Region whole = classify(box.bounds); whole != Region::straddles) return whole;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    Vec3 p = box.center;
+    for (unsigned i = 0; i < 3; ++i) p += (corner >> i & 1) != 0 ? box.half_edges[i] : -box.half_edges[i];
+    search.look(contains(p));
+    if (search.is_decided()) return Region::straddles;
+  }
   return classify_parts(box.center, box.half_edges, box.error, halvings, search);
 }
 
@@ -122,8 +130,8 @@ Region TwistedPrism::classify_parts(const Vec3& middle, const std::array<Vec3, 3
   const Vec3 reach = size + error + gamma(8) * (abs(middle) + size);
   const Region whole = classify(Box3{middle - reach, middle + reach});
   if (whole != Region::straddles || halvings == 0 || --search.parts_left <= 0) return whole;
-  (contains(middle) ? search.is_inside_somewhere : search.is_outside_somewhere) = true;
-  if (search.is_inside_somewhere && search.is_outside_somewhere) return whole;
+  search.look(contains(middle));
+  if (search.is_decided()) return whole;
   // Across the edge that moves the place in the outline farthest: by itself, or by the turn and the scales on its way
   // up.
   const double rise = reach_ / h * (half_pi * std::fabs(twist / 90) + std::fabs(scale_x - 1) + std::fabs(scale_y - 1));

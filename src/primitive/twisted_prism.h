@@ -56,6 +56,9 @@ class TwistedPrism {
   struct BoxSearch {
     int parts_left = 320;
     bool is_inside_somewhere = false, is_outside_somewhere = false;
+
+    void look(bool is_inside) { (is_inside ? is_inside_somewhere : is_outside_somewhere) = true; }
+    bool is_decided() const { return is_inside_somewhere && is_outside_somewhere; }
   };
 
   Region classify(const Box3& bounds) const;
