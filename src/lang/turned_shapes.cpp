@@ -53,6 +53,8 @@ class AxisCut {
       const OutlineCorner &a = loop[i], &b = loop[(i + 1) % loop.size()];
       a.bulge == 0 ? cut_segment(snapped({a.x, a.y}), snapped({b.x, b.y})) : cut_arc({a.x, a.y}, {b.x, b.y}, a.bulge);
     }
+    // Where the first edge was kept from its beginning, the last one has come back there.
+    if (kept_.size() > 1 && kept_.back().x == kept_.front().x && kept_.back().y == kept_.front().y) kept_.pop_back();
     return std::move(kept_);
   }
 
