@@ -90,8 +90,11 @@ TEST_P(Coincidence, WhatOneChainSeesTheOtherSeesToo) {
       // The second may be known much less well than the first.
       const double tolerance = random.chance(0.5) ? 0 : solid.size * random.magnitude(-16, -9);
       Spans x, y;
-      spans(solid.store, solid.id, *first, ray, 0, -1, x);
-      spans(solid.store, solid.id, *second, ray, tolerance, -1, y);
+      // Along the whole line.
+      LocalRay line{ray.origin, ray.direction, {}, {}, -1};
+      spans(solid.store, solid.id, *first, line, x);
+      line.origin_error = tolerance * Vec3{1, 1, 1};
+      spans(solid.store, solid.id, *second, line, y);
       disagreements += x.size() != y.size();
       const auto xy = unmatched(x, y), yx = unmatched(y, x);
       if ((xy || yx) && lies_in_surface(solid, *second, ray, tolerance, x.empty() ? y : x)) continue;

@@ -45,7 +45,7 @@ TEST_P(Placed, CrossingsAgreeWithTheExactMap) {
       // A solid that is smaller than the rounding of its place has no crossings to speak of.
       if (kind().bounded && error > 1e-3 * least(solid.bounds.size())) continue;
       Spans out;
-      spans(solid.store, solid.id, *placement, ray, 0, -1, out);
+      spans(solid.store, solid.id, *placement, LocalRay{ray.origin, ray.direction, {}, {}, -1}, out);
       hits += !out.empty();
       const Line<Quad> line{inverse.point(Vec<Quad>(ray.origin)), inverse.direction(Vec<Quad>(ray.direction))};
       const Vec3 d = line.direction.rounded();
