@@ -90,7 +90,10 @@ void LitScene::prepare_lights(const Scene& scene) {
     const Environment* environment = light.is_around() ? &environments_.emplace_back(light) : nullptr;
     lights_.emplace_back(light, environment);
     has_light_surfaces_ |= lights_.back().has_surface();
-    if (environment != nullptr) around_ = &lights_.back();
+    draws_places_of_lights_ |= lights_.back().has_extent();
+    if (environment == nullptr) continue;
+    around_ = &lights_.back();
+    ambient_light_.emplace(*environment);
   }
   // A crossing lies within the tolerance of its face, divided by the slope, and so does the light's surface.
   if (scene.tree) margin_ = 2 * scene.tree->tolerance.distance;
@@ -103,11 +106,6 @@ Rgb LitScene::color(const Hit& hit) const {
   // one colour.
   const double share = second_share(material.texture, hit.point - (2 * hit.bound) * hit.normal);
   return (1 - share) * material.color + share * material.second;
-}
-
-Rgb LitScene::emitted(const Hit& hit) const {
-  const Prepared& material = prepared(hit.material);
-  return material.emission > 0 ? material.emission * color(hit) : Rgb{};
 }
 
 Rgb LitScene::albedo(const Hit& hit) const {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "render/ambient_light.h"
 #include "render/lit_light.h"
 #include "render/surface.h"
 #include "tenon/math/color.h"
@@ -46,7 +47,10 @@ class LitScene {
   /// The colour of the material where the hit is, linear.
   Rgb color(const Hit& hit) const;
   /// What the surface sends out by itself.
-  Rgb emitted(const Hit& hit) const;
+  Rgb emitted(const Hit& hit) const {
+    const double emission = prepared(hit.material).emission;
+    return emission > 0 ? emission * color(hit) : Rgb{};
+  }
   /// The share of light that the surface returns, in whatever direction.
   Rgb albedo(const Hit& hit) const;
   /// @}
@@ -69,10 +73,15 @@ class LitScene {
   /// @name Lights
   /// @{
   const std::vector<LitLight>& lights() const { return lights_; }
-  const Rgb& ambient() const { return ambient_; }
+  /// What white matt surfaces show of light from everywhere, shadows aside: that of the world around where the scene
+  /// names it.
+  /// @param normal  on the viewer's side
+  Rgb ambient(const Vec3& normal) const { return ambient_light_ ? (*ambient_light_)(normal) : ambient_; }
   const Rgb& background() const { return background_; }
   /// The world around, when the scene names it.
   const LitLight* around() const { return around_; }
+  /// Whether a place has to be drawn of some light that choose_light() may draw.
+  bool draws_places_of_lights() const { return draws_places_of_lights_; }
   /// What a ray shows that meets nothing.
   /// @param is_camera_ray  nothing has bent it since it left the camera
   /// @param is_sharp       nothing has spread it since then: it met mirrors and clear glass alone
@@ -114,9 +123,10 @@ class LitScene {
   std::vector<LitLight> lights_;
   std::deque<Environment> environments_;
   const LitLight* around_ = nullptr;
-  bool has_light_surfaces_ = false;
+  bool has_light_surfaces_ = false, draws_places_of_lights_ = false;
   double margin_ = 0;
   Rgb background_, ambient_;
+  std::optional<AmbientLight> ambient_light_;  // of the world around
   bool shows_around_ = false;
 };
 

@@ -45,7 +45,7 @@ void WhittedIntegrator::shade(std::span<const RayQuery> rays, std::span<const Hi
       node.normal = dot(hit.normal, ray.direction) > 0 ? -hit.normal : hit.normal;
       const Reflectance& surface = scene_.reflectance(hit.material);
       const Rgb color = scene_.color(hit);
-      node.local = scene_.emitted(hit) + surface.ambient * color * scene_.ambient();
+      node.local = scene_.emitted(hit) + surface.ambient * color * scene_.ambient(node.normal);
       node.diffuse = surface.diffuse * color;
       branch(ray, hit, node);
     } else {
