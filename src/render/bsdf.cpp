@@ -13,8 +13,12 @@ namespace tenon {
 
 namespace {
 
+bool is_rough(Lobe::Kind kind) {
+  return kind == Lobe::Kind::conductor || kind == Lobe::Kind::gloss || kind == Lobe::Kind::rough_dielectric;
+}
+
 bool is_spread(Lobe::Kind kind) {
-  return kind != Lobe::Kind::mirror && kind != Lobe::Kind::refraction && kind != Lobe::Kind::dielectric;
+  return kind == Lobe::Kind::diffuse || is_rough(kind);
 }
 
 // What a microfacet reflects.
@@ -35,25 +39,31 @@ BsdfValue diffuse(const Lobe& lobe, const Vec3& wi) {
 // Walter et al. 2007, equations 20 and 14; in a rough dielectric it is reflection that is drawn with Fresnel's share.
 BsdfValue rough_reflection(const Lobe& lobe, const Vec3& wo, const Vec3& wi) {
   const Microfacets facets(lobe.alpha);
-  const Vec3 m = normalize(wo + wi);
-  const double spread = facets.density(m) / (4 * wo.z);
-  const Rgb fresnel = reflected_by(lobe, dot(wo, m));
-  const double density = facets.masking(wo) * spread * (lobe.kind == Lobe::Kind::rough_dielectric ? fresnel.r : 1);
-  return {(lobe.scale * facets.masking_shadowing(wo, wi) * spread) * (lobe.weight * fresnel), density};
+  const Vec3 h = wo + wi;
+  const double squared = dot(h, h);
+  const double spread = facets.density(h, squared) / (4 * wo.z);
+  // The microfacet halves the angle between directions of length 1: its cosine is half of their sum's length.
+  const Rgb fresnel = reflected_by(lobe, 0.5 * std::sqrt(squared));
+  const double lambda_i = facets.lambda(wi);
+  const double density =
+      Microfacets::masking(lobe.lambda) * spread * (lobe.kind == Lobe::Kind::rough_dielectric ? fresnel.r : 1);
+  const double kept = lobe.scale * Microfacets::masking_shadowing(lobe.lambda, lambda_i) * spread;
+  return {kept * (lobe.weight * fresnel), density};
 }
 
 // Walter et al. 2007, equations 21 and 17, with the indices divided by that behind the surface.
 BsdfValue rough_refraction(const Lobe& lobe, const Vec3& wo, const Vec3& wi) {
-  Vec3 m = normalize(lobe.eta * wo + wi);
-  if (m.z < 0) m = -m;
+  const Vec3 h = lobe.eta * wo + wi;
+  const double squared = dot(h, h);
+  const Vec3 m = h / (h.z < 0 ? -std::sqrt(squared) : std::sqrt(squared));
   const double cos_o = dot(wo, m), cos_i = dot(wi, m);
   if (!(cos_o > 0) || !(cos_i < 0)) return {};
   const double share = 1 - fresnel_dielectric(cos_o, lobe.eta);
   const double bend = lobe.eta * cos_o + cos_i;
   const Microfacets facets(lobe.alpha);
-  const double spread = share * cos_o * facets.density(m) / wo.z * (-cos_i / (bend * bend));
-  const double scale = lobe.scale * lobe.eta * lobe.eta;
-  return {(scale * facets.masking_shadowing(wo, wi) * spread) * (lobe.weight * lobe.tint), facets.masking(wo) * spread};
+  const double spread = share * cos_o * facets.density(h, squared) / wo.z * (-cos_i / (bend * bend));
+  const double kept = lobe.scale * Microfacets::masking_shadowing(lobe.lambda, facets.lambda(wi)) * spread;
+  return {(kept * lobe.eta * lobe.eta) * (lobe.weight * lobe.tint), Microfacets::masking(lobe.lambda) * spread};
 }
 
 BsdfValue evaluate_lobe(const Lobe& lobe, const Vec3& wo, const Vec3& wi) {
@@ -102,14 +112,20 @@ std::optional<Vec3> sample_spread(const Lobe& lobe, const Vec3& wo, double choic
 
 }  // namespace
 
-void Bsdf::add(const Lobe& lobe, double importance) {
-  if (!(importance > 0)) return;
+Lobe* Bsdf::add(Lobe::Kind kind, const Rgb& weight, double importance, double alpha) {
+  if (!(importance > 0)) return nullptr;
   assert(count_ < most_lobes);
-  lobes_[count_] = lobe;
-  lobes_[count_].probability = importance;
-  ++count_;
+  Lobe& lobe = lobes_[count_++];
+  lobe.kind = kind;
+  lobe.weight = weight;
+  lobe.probability = importance;
+  lobe.alpha = alpha;
+  if (is_rough(kind)) lobe.lambda = Microfacets(alpha).lambda(wo_);
+  lobe.scale = 1;
+  lobe.is_window = false;
   total_ += importance;
-  spreads_ |= is_spread(lobe.kind);
+  spreads_ |= is_spread(kind);
+  return &lobe;
 }
 
 BsdfValue Bsdf::evaluate(const Vec3& wi) const {

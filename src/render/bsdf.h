@@ -10,7 +10,7 @@
 
 namespace tenon {
 
-/// One of the ways a surface scatters light.
+/// One of the ways a surface scatters light. What its kind has no use for need not be set.
 struct Lobe {
   enum class Kind {
     diffuse,           ///< Lambert
@@ -22,15 +22,16 @@ struct Lobe {
     rough_dielectric,  ///< rough; reflects and refracts
   };
 
-  Kind kind = Kind::diffuse;
-  Rgb weight{1, 1, 1};
-  double probability = 0;  ///< of being drawn
-  double alpha = 0;        ///< of rough kinds: GGX's width
-  double eta = 1;          ///< of dielectric kinds and refraction: index before the surface over that behind it
-  double scale = 1;        ///< of rough kinds: makes up for what single scattering loses
-  Rgb f0{1, 1, 1};         ///< of conductors
-  Rgb tint{1, 1, 1};       ///< of what dielectrics let through
-  bool is_window = false;  ///< where it does not bend light, shadow rays pass it as well (Surface::unbent)
+  Kind kind;
+  Rgb weight;
+  double probability;  ///< of being drawn
+  double alpha;        ///< of rough kinds: GGX's width
+  double eta;          ///< of dielectric kinds and refraction: index before the surface over that behind it
+  double scale;        ///< of rough kinds: makes up for what single scattering loses
+  double lambda;       ///< of rough kinds: Smith's Lambda of where the light goes
+  Rgb f0;              ///< of conductors
+  Rgb tint;            ///< of what dielectrics let through
+  bool is_window;      ///< where it does not bend light, shadow rays pass it as well (Surface::unbent)
 };
 
 /// A direction that light may have come from.
@@ -58,8 +59,10 @@ class Bsdf {
   /// @param wo  where the light goes, z > 0
   explicit Bsdf(const Vec3& wo) : wo_(wo) {}
 
-  /// @param importance  relative, of the lobe's being drawn; a lobe of none is left out
-  void add(const Lobe& lobe, double importance);
+  /// Adds a lobe that shows its microfacets' width (0: it has none), and neither scales nor is a window.
+  /// @param importance  relative, of the lobe's being drawn
+  /// @return where the kind's other parameters go; null: a lobe of no importance is left out
+  Lobe* add(Lobe::Kind kind, const Rgb& weight, double importance, double alpha = 0);
 
   /// The light from wi of all lobes that spread it; nothing when wi can only be met by chance.
   BsdfValue evaluate(const Vec3& wi) const;
@@ -74,7 +77,7 @@ class Bsdf {
   static constexpr std::size_t most_lobes = 5;
 
   Vec3 wo_;
-  std::array<Lobe, most_lobes> lobes_;
+  std::array<Lobe, most_lobes> lobes_;  // not set from count_ on
   std::size_t count_ = 0;
   double total_ = 0;  // of the importances
   bool spreads_ = false;

@@ -38,7 +38,11 @@ LitLight::LitLight(const Light& light, const Environment* environment)
       edge_v_(light.edge_v),
       area_(length(cross(light.edge_u, light.edge_v))),
       emitted_(light.intensity * linear_from_srgb(light.color)),
-      environment_(environment) {}
+      environment_(environment) {
+  const bool is_even = environment_ != nullptr || kind_ == LightKind::directional ||
+                       (kind_ == LightKind::point && !(fade_distance_ > 0));
+  if (is_even) even_importance_ = importance_at(position_);
+}
 
 IncidentLight LitLight::at(const Vec3& point) const {
   if (kind_ == LightKind::directional) return {-direction_, inf, emitted_};
@@ -75,7 +79,7 @@ double LitLight::fading(const Vec3& to_light) const {
   return fade_distance_ * fade_distance_ / dot(to_light, to_light);
 }
 
-double LitLight::importance(const Vec3& point) const {
+double LitLight::importance_at(const Vec3& point) const {
   if (environment_ != nullptr) return environment_->is_uniform() ? 0 : environment_->importance();
   if (kind_ != LightKind::rectangle) return largest(at(point).light);
   // Near the light its middle says little about how much of it there is to see, and from which side.

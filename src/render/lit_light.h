@@ -46,7 +46,7 @@ class LitLight {
 
   /// About what a white surface at the point would show of it, shadows aside: never 0 where the light reaches, but for
   /// a uniform world, of which no direction is worth drawing.
-  double importance(const Vec3& point) const;
+  double importance(const Vec3& point) const { return even_importance_ ? *even_importance_ : importance_at(point); }
 
   /// Draws a direction to the light, by a place that only a light with extent has; none where none of it can be seen.
   std::optional<LightSample> sample(const Vec3& point, const Sample2& place) const;
@@ -60,6 +60,7 @@ class LitLight {
   const Environment* environment() const { return environment_; }
 
  private:
+  double importance_at(const Vec3& point) const;
   double spot_share(const Vec3& to_light) const;
   double fading(const Vec3& to_light) const;
   std::optional<LightSample> sample_rectangle(const Vec3& point, const Sample2& place) const;
@@ -77,6 +78,7 @@ class LitLight {
   double area_;
   Rgb emitted_;
   const Environment* environment_;
+  std::optional<double> even_importance_;  // where it is the same at every point
 };
 
 }  // namespace tenon

@@ -17,11 +17,12 @@ class Microfacets {
   /// @param alpha  GGX's width, above 0
   explicit Microfacets(double alpha) : alpha_(alpha) {}
 
-  /// D(m), for m.z > 0.
-  double density(const Vec3& m) const {
-    const double x = m.x / alpha_, y = m.y / alpha_;
-    const double t = x * x + y * y + m.z * m.z;
-    return 1 / (std::numbers::pi * alpha_ * alpha_ * t * t);
+  /// D(h / |h|), the same for h and -h.
+  /// @param squared  |h|²
+  double density(const Vec3& h, double squared) const {
+    const double a2 = alpha_ * alpha_;
+    const double t = (h.x * h.x + h.y * h.y) + a2 * (h.z * h.z);
+    return a2 * (squared * squared) / (std::numbers::pi * (t * t));
   }
 
   /// Smith's Lambda.
@@ -30,10 +31,10 @@ class Microfacets {
     if (z == 0) return std::numeric_limits<double>::infinity();
     return 0.5 * (std::sqrt(1 + alpha_ * alpha_ * (v.x * v.x + v.y * v.y) / z) - 1);
   }
-  /// The share of the microfacets that wo sees unmasked.
-  double masking(const Vec3& wo) const { return 1 / (1 + lambda(wo)); }
+  /// The share of the microfacets that are seen unmasked from where lambda() is that.
+  static double masking(double lambda_o) { return 1 / (1 + lambda_o); }
   /// Masking and shadowing together, correlated by height.
-  double masking_shadowing(const Vec3& wo, const Vec3& wi) const { return 1 / (1 + lambda(wo) + lambda(wi)); }
+  static double masking_shadowing(double lambda_o, double lambda_i) { return 1 / (1 + lambda_o + lambda_i); }
 
   /// A microfacet's normal, drawn among those that wo sees (Dupuy and Benyoub, "Sampling Visible GGX Normals with
   /// Spherical Caps", 2023).
@@ -44,10 +45,6 @@ class Microfacets {
     const double radius = std::sqrt(std::max(0.0, 1 - z * z));
     const Vec3 h = Vec3{radius * std::cos(phi), radius * std::sin(phi), z} + stretched;
     return normalize({alpha_ * h.x, alpha_ * h.y, std::max(0.0, h.z)});
-  }
-  /// The density of sample_visible(), per solid angle of m.
-  double visible_density(const Vec3& wo, const Vec3& m) const {
-    return masking(wo) * std::max(0.0, dot(wo, m)) * density(m) / wo.z;
   }
 
  private:

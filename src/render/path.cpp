@@ -14,11 +14,23 @@ std::uint32_t pair_of(int bounce, BouncePair pair) {
   return sample_pair::first_bounce + static_cast<std::uint32_t>(bounce) * pairs_per_bounce + pair;
 }
 
+// Bounces that no path ends at by chance.
+constexpr int certain_bounces = 3;
+
 double largest(const Rgb& c) {
   return std::max({c.r, c.g, c.b});
 }
 
 }  // namespace
+
+PathIntegrator::PathIntegrator(const LitScene& scene, const Accelerator& accelerator, const Sampler& sampler, int depth,
+                               LightStrategy strategy)
+    : scene_(scene),
+      accelerator_(accelerator),
+      sampler_(sampler),
+      depth_(depth),
+      strategy_(strategy),
+      shadow_rays_(scene.lights().size()) {}
 
 void PathIntegrator::radiance(std::span<const RayQuery> primary, std::span<const Hit> hits,
                               std::span<const SampleId> samples, std::span<Rgb> light, TraceContext& context) {
@@ -29,10 +41,13 @@ void PathIntegrator::radiance(std::span<const RayQuery> primary, std::span<const
   for (int bounce = 0;; ++bounce) {
     next_paths_.clear();
     next_queries_.clear();
-    for (std::size_t i = 0; i < paths_.size(); ++i) {
-      const std::uint32_t slot = paths_[i].slot;
-      shade(paths_[i], rays[i], hits[i], samples[slot], bounce, light[slot]);
+    vertices_.clear();
+    for (std::uint32_t i = 0; i < paths_.size(); ++i) {
+      Rgb& received = light[paths_[i].slot];
+      if (meet(paths_[i], rays[i], hits[i], received)) vertices_.push_back({i, -rays[i].ray.direction});
     }
+    draw(samples, bounce);
+    for (std::size_t i = 0; i < vertices_.size(); ++i) scatter(i, hits[vertices_[i].path], bounce);
     trace_shadow_rays(light, context);
     if (next_paths_.empty()) return;
     next_hits_.resize(next_queries_.size());
@@ -46,8 +61,8 @@ void PathIntegrator::radiance(std::span<const RayQuery> primary, std::span<const
   }
 }
 
-void PathIntegrator::shade(Path path, const RayQuery& query, const Hit& hit, const SampleId& sample, int bounce,
-                           Rgb& light) {
+// What comes from where the ray ends by itself. @return whether there is a surface for more to come from
+bool PathIntegrator::meet(Path& path, const RayQuery& query, const Hit& hit, Rgb& light) const {
   const Vec3& d = query.ray.direction;
   const auto lamp = scene_.first_light(query.ray, hit.t + hit.bound);
   const MediumId medium = hit.found() ? hit.before : medium_outside;
@@ -56,23 +71,41 @@ void PathIntegrator::shade(Path path, const RayQuery& query, const Hit& hit, con
   if (lamp) {
     const auto& [met, place] = *lamp;
     light += weight_of_met_light(path, *met, place.density) * (path.throughput * place.radiance);
-    return;
+    return false;
   }
   if (!hit.found()) {
     const LitLight* around = scene_.around();
     const double share = around == nullptr ? 1 : weight_of_met_light(path, *around, around->environment()->density(d));
     light += share * (path.throughput * scene_.beyond(d, path.is_camera_ray, path.is_sharp));
-    return;
+    return false;
   }
   light += path.throughput * scene_.emitted(hit);
-  const Frame frame(dot(hit.normal, d) > 0 ? -hit.normal : hit.normal);
-  const Vec3 wo = frame.to_local(-d);
+  return true;
+}
+
+void PathIntegrator::draw(std::span<const SampleId> samples, int bounce) {
+  samples_.clear();
+  for (const Vertex& vertex : vertices_) samples_.push_back(samples[paths_[vertex.path].slot]);
+  const auto draw_pairs = [&](BouncePair pair, std::vector<Sample2>& pairs) {
+    pairs.resize(samples_.size());
+    sampler_.draw(samples_, pair_of(bounce, pair), pairs);
+  };
+  draw_pairs(choices, draws_.choice);
+  if (scene_.draws_places_of_lights()) draw_pairs(light_place, draws_.light_place);
+  if (bounce + 1 == depth_) return;
+  draw_pairs(direction, draws_.direction);
+  if (bounce >= certain_bounces) draw_pairs(roulette, draws_.roulette);
+}
+
+void PathIntegrator::scatter(std::size_t vertex, const Hit& hit, int bounce) {
+  const Vec3& to_viewer = vertices_[vertex].wo;
+  const Frame frame(dot(hit.normal, to_viewer) < 0 ? -hit.normal : hit.normal);
+  const Vec3 wo = frame.to_local(to_viewer);
   if (!(wo.z > 0)) return;  // along the surface, which then sends nothing that way
   const Bsdf bsdf = scene_.surface(hit.material).bsdf(wo, scene_.color(hit), scene_.boundary(hit));
-  const Vertex vertex{hit, frame, bsdf, sample, bounce};
-  const Sample2 choice = sampler_(sample, pair_of(bounce, choices));
-  if (bsdf.spreads()) connect(path, vertex, choice.u);
-  if (bounce + 1 < depth_) go_on(path, vertex, choice.v);
+  const Bounce at{paths_[vertices_[vertex].path], hit, frame, bsdf, vertex};
+  if (bsdf.spreads()) connect(at);
+  if (bounce + 1 < depth_) go_on(at, bounce);
 }
 
 double PathIntegrator::weight(double density, double other) const {
@@ -89,23 +122,22 @@ double PathIntegrator::weight_of_met_light(const Path& path, const LitLight& lig
   return weight(path.density, density * scene_.choice_probability(light, path.vertex));
 }
 
-void PathIntegrator::connect(const Path& path, const Vertex& vertex, double choice) {
-  const Hit& hit = vertex.hit;
-  const LightChoice chosen = scene_.choose_light(hit.point, choice);
+void PathIntegrator::connect(const Bounce& at) {
+  const Hit& hit = at.hit;
+  const LightChoice chosen = scene_.choose_light(hit.point, draws_.choice[at.vertex].u);
   if (chosen.light == nullptr) return;
-  const Sample2 place =
-      chosen.light->has_extent() ? sampler_(vertex.sample, pair_of(vertex.bounce, light_place)) : Sample2{};
+  const Sample2 place = chosen.light->has_extent() ? draws_.light_place[at.vertex] : Sample2{};
   const auto sample = chosen.light->sample(hit.point, place);
   if (!sample) return;
   const double distance = length(sample->to_light);
-  const Vec3 wi = vertex.frame.to_local(sample->to_light / distance);
-  const BsdfValue value = vertex.bsdf.evaluate(wi);
+  const Vec3 wi = at.frame.to_local(sample->to_light / distance);
+  const BsdfValue value = at.bsdf.evaluate(wi);
   double share = 1 / chosen.probability;
   if (sample->density > 0) {
     if (strategy_ == LightStrategy::bsdf) return;
     if (strategy_ == LightStrategy::both) share *= weight(sample->density * chosen.probability, value.density);
   }
-  const Rgb sent = share * (path.throughput * value.light * sample->light);
+  const Rgb sent = share * (at.path.throughput * value.light * sample->light);
   if (!(largest(sent) > 0)) return;
   RayQuery query;
   query.ray = {hit.point, sample->to_light};
@@ -114,24 +146,25 @@ void PathIntegrator::connect(const Path& path, const Vertex& vertex, double choi
   query.kind = RayKind::shadow;
   query.from = &hit;
   if (scene_.is_blocked_by_light(query.ray, query.t_max, chosen.light)) return;
-  shadow_queries_.push_back(query);
-  shadow_rays_.push_back({sent, path.slot, wi.z > 0 ? hit.before : hit.after});
+  ShadowRays& to_light = shadow_rays_[static_cast<std::size_t>(chosen.light - scene_.lights().data())];
+  to_light.queries.push_back(query);
+  to_light.rays.push_back({sent, at.path.slot, wi.z > 0 ? hit.before : hit.after});
 }
 
-void PathIntegrator::go_on(Path path, const Vertex& vertex, double choice) {
-  const auto drawn = vertex.bsdf.sample(choice, sampler_(vertex.sample, pair_of(vertex.bounce, direction)));
+void PathIntegrator::go_on(const Bounce& at, int bounce) {
+  const auto drawn = at.bsdf.sample(draws_.choice[at.vertex].v, draws_.direction[at.vertex]);
   if (!drawn) return;
-  const Hit& hit = vertex.hit;
+  const Hit& hit = at.hit;
+  Path path = at.path;
   path.throughput = path.throughput * drawn->weight;
   if (drawn->is_transmitted) {
     const double eta = scene_.ior(hit.before) / scene_.ior(hit.after);
     path.growth *= eta * eta;
   }
   // A path that carries little goes on seldom, and then carries more.
-  constexpr int certain_bounces = 3;
   const double survival = largest(path.throughput) / path.growth;
-  if (vertex.bounce >= certain_bounces && survival < 1) {
-    if (!(sampler_(vertex.sample, pair_of(vertex.bounce, roulette)).u < survival)) return;
+  if (bounce >= certain_bounces && survival < 1) {
+    if (!(draws_.roulette[at.vertex].u < survival)) return;
     path.throughput = path.throughput * (1 / survival);
   }
   if (!(largest(path.throughput) > 0)) return;
@@ -143,7 +176,7 @@ void PathIntegrator::go_on(Path path, const Vertex& vertex, double choice) {
     path.is_sharp &= drawn->density == 0;
   }
   RayQuery query;
-  query.ray = {hit.point, vertex.frame.to_world(drawn->direction)};
+  query.ray = {hit.point, at.frame.to_world(drawn->direction)};
   query.kind = drawn->density > 0 ? RayKind::diffuse : drawn->is_transmitted ? RayKind::refracted : RayKind::reflected;
   query.from = &hit;
   next_paths_.push_back(path);
@@ -151,23 +184,24 @@ void PathIntegrator::go_on(Path path, const Vertex& vertex, double choice) {
 }
 
 void PathIntegrator::trace_shadow_rays(std::span<Rgb> light, TraceContext& context) {
-  if (scene_.has_unbent()) {
-    for (std::size_t i = 0; i < shadow_queries_.size(); ++i) {
-      const ShadowRay& ray = shadow_rays_[i];
-      light[ray.slot] += ray.light * transmittance(shadow_queries_[i], ray.medium, context);
+  for (ShadowRays& to_light : shadow_rays_) {
+    const auto& [queries, rays] = to_light;
+    if (scene_.has_unbent()) {
+      for (std::size_t i = 0; i < queries.size(); ++i) {
+        light[rays[i].slot] += rays[i].light * transmittance(queries[i], rays[i].medium, context);
+      }
+    } else if (!queries.empty()) {
+      occluded_.resize(queries.size());
+      accelerator_.occluded(queries, occluded_, context);
+      for (std::size_t i = 0; i < queries.size(); ++i) {
+        if (occluded_[i] != 0) continue;
+        const double distance = queries[i].t_max * length(queries[i].ray.direction);
+        light[rays[i].slot] += rays[i].light * scene_.attenuation(rays[i].medium, distance);
+      }
     }
-  } else {
-    occluded_.resize(shadow_queries_.size());
-    accelerator_.occluded(shadow_queries_, occluded_, context);
-    for (std::size_t i = 0; i < occluded_.size(); ++i) {
-      if (occluded_[i] != 0) continue;
-      const ShadowRay& ray = shadow_rays_[i];
-      const double distance = shadow_queries_[i].t_max * length(shadow_queries_[i].ray.direction);
-      light[ray.slot] += ray.light * scene_.attenuation(ray.medium, distance);
-    }
+    to_light.queries.clear();
+    to_light.rays.clear();
   }
-  shadow_queries_.clear();
-  shadow_rays_.clear();
 }
 
 Rgb PathIntegrator::transmittance(const RayQuery& query, MediumId medium, TraceContext& context) {

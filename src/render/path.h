@@ -22,15 +22,14 @@ enum class LightStrategy {
 /// bias, or at `depth` surfaces.
 ///
 /// The paths of a call are followed together: one call of the structure for the next surfaces of all of them, one for
-/// their shadow rays.
+/// their shadow rays to each light.
 ///
 /// Light that a light without extent sends through glass that bends it is not found: no path can be drawn that way.
 class PathIntegrator final : public Integrator {
  public:
   /// @param depth  surfaces along a path that send light to it; 1: light that comes straight from lights
   PathIntegrator(const LitScene& scene, const Accelerator& accelerator, const Sampler& sampler, int depth,
-                 LightStrategy strategy = LightStrategy::both)
-      : scene_(scene), accelerator_(accelerator), sampler_(sampler), depth_(depth), strategy_(strategy) {}
+                 LightStrategy strategy = LightStrategy::both);
 
   void radiance(std::span<const RayQuery> primary, std::span<const Hit> hits, std::span<const SampleId> samples,
                 std::span<Rgb> light, TraceContext& context) override;
@@ -50,19 +49,34 @@ class PathIntegrator final : public Integrator {
     std::uint32_t slot = 0;
     MediumId medium = medium_outside;
   };
-
-  /// What a bounce is about.
+  /// Those to one light: neighbours that go to one place are traced together.
+  struct ShadowRays {
+    std::vector<RayQuery> queries;
+    std::vector<ShadowRay> rays;
+  };
+  /// A surface that may send light on along a path.
   struct Vertex {
+    std::uint32_t path = 0;  // into paths_
+    Vec3 wo;                 // where the light goes
+  };
+  /// What is drawn for the vertices of one bounce, each as long as vertices_, or empty where nothing asks for it.
+  struct Draws {
+    std::vector<Sample2> choice, light_place, direction, roulette;
+  };
+  /// What a bounce is about.
+  struct Bounce {
+    const Path& path;
     const Hit& hit;
     const Frame& frame;
     const Bsdf& bsdf;
-    const SampleId& sample;
-    int bounce;
+    std::size_t vertex;  // into vertices_
   };
 
-  void shade(Path path, const RayQuery& query, const Hit& hit, const SampleId& sample, int bounce, Rgb& light);
-  void connect(const Path& path, const Vertex& vertex, double choice);
-  void go_on(Path path, const Vertex& vertex, double choice);
+  bool meet(Path& path, const RayQuery& query, const Hit& hit, Rgb& light) const;
+  void draw(std::span<const SampleId> samples, int bounce);
+  void scatter(std::size_t vertex, const Hit& hit, int bounce);
+  void connect(const Bounce& at);
+  void go_on(const Bounce& at, int bounce);
   double weight(double density, double other) const;
   double weight_of_met_light(const Path& path, const LitLight& light, double density) const;
   void trace_shadow_rays(std::span<Rgb> light, TraceContext& context);
@@ -77,8 +91,10 @@ class PathIntegrator final : public Integrator {
   std::vector<Path> paths_, next_paths_;
   std::vector<RayQuery> queries_, next_queries_;
   std::vector<Hit> hits_, next_hits_;
-  std::vector<RayQuery> shadow_queries_;
-  std::vector<ShadowRay> shadow_rays_;
+  std::vector<Vertex> vertices_;
+  std::vector<SampleId> samples_;  // of the vertices
+  Draws draws_;
+  std::vector<ShadowRays> shadow_rays_;  // by light
   std::vector<std::uint8_t> occluded_;
   PassedBoundaries passed_;
 };

@@ -26,13 +26,6 @@ double alpha_of_exponent(double n) {
   return std::sqrt(2 / (n + 2));
 }
 
-Lobe lobe(Lobe::Kind kind, const Rgb& weight) {
-  Lobe lobe;
-  lobe.kind = kind;
-  lobe.weight = weight;
-  return lobe;
-}
-
 Rgb grey(double value) {
   return {value, value, value};
 }
@@ -42,14 +35,12 @@ Rgb grey(double value) {
 void add_conductor(Bsdf& bsdf, double cos, double alpha, const Rgb& f0, double share, const AlbedoTable* table) {
   if (alpha == 0) {
     const Rgb reflected{fresnel_schlick(cos, f0.r), fresnel_schlick(cos, f0.g), fresnel_schlick(cos, f0.b)};
-    bsdf.add(lobe(Lobe::Kind::mirror, share * reflected), share * largest(reflected));
+    bsdf.add(Lobe::Kind::mirror, share * reflected, share * largest(reflected));
     return;
   }
   const double lost_over_kept = 1 / (*table)(cos)-1;
-  Lobe rough = lobe(Lobe::Kind::conductor, share * (grey(1) + lost_over_kept * f0));
-  rough.alpha = alpha;
-  rough.f0 = f0;
-  bsdf.add(rough, share * largest(f0));
+  const Rgb weight = share * (grey(1) + lost_over_kept * f0);
+  if (Lobe* rough = bsdf.add(Lobe::Kind::conductor, weight, share * largest(f0), alpha)) rough->f0 = f0;
 }
 
 }  // namespace
@@ -75,20 +66,19 @@ Bsdf Surface::bsdf(const Vec3& wo, const Rgb& color, const Boundary& boundary) c
   Bsdf bsdf(wo);
   switch (model_) {
     case MaterialModel::lambert:
-      bsdf.add(lobe(Lobe::Kind::diffuse, color), 1);
+      bsdf.add(Lobe::Kind::diffuse, color, 1);
       break;
     case MaterialModel::phong:
-      bsdf.add(lobe(Lobe::Kind::diffuse, kd_ * color), kd_ * largest(color));
+      bsdf.add(Lobe::Kind::diffuse, kd_ * color, kd_ * largest(color));
       if (ks_ > 0) add_conductor(bsdf, wo.z, alpha_, {1, 1, 1}, ks_, conductor_);
       break;
     case MaterialModel::whitted:
-      bsdf.add(lobe(Lobe::Kind::diffuse, kd_ * color), kd_ * largest(color));
-      bsdf.add(lobe(Lobe::Kind::mirror, grey(ks_)), ks_);
-      if (!boundary.is_opaque_behind) {
-        Lobe through = lobe(Lobe::Kind::refraction, grey(kt_));
-        through.eta = boundary.ior_before / boundary.ior_behind;
-        through.is_window = true;
-        bsdf.add(through, kt_);
+      bsdf.add(Lobe::Kind::diffuse, kd_ * color, kd_ * largest(color));
+      bsdf.add(Lobe::Kind::mirror, grey(ks_), ks_);
+      if (boundary.is_opaque_behind) break;
+      if (Lobe* through = bsdf.add(Lobe::Kind::refraction, grey(kt_), kt_)) {
+        through->eta = boundary.ior_before / boundary.ior_behind;
+        through->is_window = true;
       }
       break;
     case MaterialModel::conductor:
@@ -125,24 +115,20 @@ void Surface::add_dielectric(Bsdf& bsdf, double cos, const Rgb& tint, double sha
   const double eta = boundary.ior_before / boundary.ior_behind;
   // Between media of one index there is nothing to reflect at or to bend light.
   const bool smooth = alpha_ == 0 || eta == 1;
-  Lobe both = lobe(smooth ? Lobe::Kind::dielectric : Lobe::Kind::rough_dielectric, grey(share));
-  both.tint = tint;
-  both.eta = eta;
-  both.alpha = alpha_;
-  both.is_window = model_ == MaterialModel::dielectric;
-  if (!smooth) both.scale = 1 / tables_.get(ScatteredPart::all_of_dielectric, alpha_, eta)(cos);
-  bsdf.add(both, share);
+  Lobe* both = bsdf.add(smooth ? Lobe::Kind::dielectric : Lobe::Kind::rough_dielectric, grey(share), share, alpha_);
+  if (both == nullptr) return;
+  both->tint = tint;
+  both->eta = eta;
+  both->is_window = model_ == MaterialModel::dielectric;
+  if (!smooth) both->scale = 1 / tables_.get(ScatteredPart::all_of_dielectric, alpha_, eta)(cos);
 }
 
 void Surface::add_gloss(Bsdf& bsdf, double cos, double alpha, double eta, double share, double albedo) const {
   if (alpha == 0) {
-    bsdf.add(lobe(Lobe::Kind::mirror, grey(share * fresnel_dielectric(cos, eta))), share * albedo);
+    bsdf.add(Lobe::Kind::mirror, grey(share * fresnel_dielectric(cos, eta)), share * albedo);
     return;
   }
-  Lobe gloss = lobe(Lobe::Kind::gloss, grey(share));
-  gloss.alpha = alpha;
-  gloss.eta = eta;
-  bsdf.add(gloss, share * albedo);
+  if (Lobe* gloss = bsdf.add(Lobe::Kind::gloss, grey(share), share * albedo, alpha)) gloss->eta = eta;
 }
 
 // Each layer passes on what it does not reflect (albedo scaling).
@@ -163,7 +149,7 @@ void Surface::add_principled(Bsdf& bsdf, double cos, const Rgb& color, const Bou
   const double albedo = reflected_by_dielectric(cos, alpha_, eta);
   add_gloss(bsdf, cos, alpha_, eta, rest, albedo);
   const double below = rest * (1 - albedo);
-  bsdf.add(lobe(Lobe::Kind::diffuse, below * color), below * largest(color));
+  bsdf.add(Lobe::Kind::diffuse, below * color, below * largest(color));
 }
 
 }  // namespace tenon

@@ -60,21 +60,27 @@ void TileWorker::take(const PixelWindow& tile, std::uint32_t first, std::uint32_
 void TileWorker::aim(const PixelWindow& tile, std::uint32_t index) {
   queries_.resize(tile.pixels());
   hits_.resize(tile.pixels());
-  ids_.resize(tile.pixels());
   light_.resize(tile.pixels());
   places_.resize(tile.pixels());
-  const PixelSample shared = pixel_sample(index, samples_);
-  std::size_t i = 0;
-  for_each_pixel(tile, [&](int x, int y) {
-    const SampleId id = ids_[i] = {x, y, index};
-    const Sample2 place = is_random_ ? sampler_(id, sample_pair::pixel) : Sample2{shared.x, shared.y};
-    const Sample2 lens = camera_.has_lens() ? sampler_(id, sample_pair::lens) : Sample2{};
-    places_[i] = {x + place.u, y + place.v};
-    RayQuery& query = queries_[i++];
-    query.ray = camera_.ray(x + place.u, y + place.v, lens.u, lens.v);
-    query.pixel_x = x;
-    query.pixel_y = y;
-  });
+  ids_.clear();
+  for_each_pixel(tile, [&](int x, int y) { ids_.push_back({x, y, index}); });
+  if (is_random_) {
+    in_pixel_.resize(tile.pixels());
+    sampler_.draw(ids_, sample_pair::pixel, in_pixel_);
+  } else {
+    const PixelSample shared = pixel_sample(index, samples_);
+    in_pixel_.assign(tile.pixels(), {shared.x, shared.y});
+  }
+  on_lens_.resize(tile.pixels());
+  if (camera_.has_lens()) sampler_.draw(ids_, sample_pair::lens, on_lens_);
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    const SampleId& id = ids_[i];
+    places_[i] = {id.x + in_pixel_[i].u, id.y + in_pixel_[i].v};
+    RayQuery& query = queries_[i];
+    query.ray = camera_.ray(places_[i].x, places_[i].y, on_lens_[i].u, on_lens_[i].v);
+    query.pixel_x = id.x;
+    query.pixel_y = id.y;
+  }
 }
 
 void TileWorker::add(std::size_t i, Film& film) {

@@ -44,6 +44,7 @@ class TileWorker {
   std::unique_ptr<TraceContext> context_, span_context_;
   std::unique_ptr<Integrator> integrator_;
   std::vector<SampleId> ids_;
+  std::vector<Sample2> in_pixel_, on_lens_;
   std::vector<PicturePlace> places_;
   std::vector<RayQuery> queries_;
   std::vector<Hit> hits_;

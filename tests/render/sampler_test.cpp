@@ -45,6 +45,20 @@ TEST(Sampler, BlocksOfAPowerOfTwoAreNets) {
   }
 }
 
+TEST(Sampler, WhatIsDrawnWithOthersIsWhatIsDrawnAlone) {
+  const Sampler sampler(5);
+  // More than are ever made together, and not a multiple of any vector's lanes.
+  std::vector<SampleId> samples;
+  for (int i = 0; i < 333; ++i) samples.push_back({7 * i, 1000 - i, static_cast<std::uint32_t>(i * i)});
+  std::vector<Sample2> together(samples.size());
+  sampler.draw(samples, 11, together);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Sample2 alone = sampler(samples[i], 11);
+    EXPECT_EQ(together[i].u, alone.u) << i;
+    EXPECT_EQ(together[i].v, alone.v) << i;
+  }
+}
+
 // Pairs, pixels and seeds must not know of each other: the correlation of n independent pairs of numbers has a standard
 // deviation of 1/sqrt(n); 6 of them are exceeded by one correlation in 5e8.
 TEST(Sampler, PairsPixelsAndSeedsAreIndependent) {
