@@ -6,6 +6,7 @@
 #include "accel/all.h"
 #include "accel/cells/cell_trace.h"
 #include "csg/classifier.h"
+#include "csg/describe_hit.h"
 #include "csg/make_hit.h"
 #include "csg/minimum_enclosure.h"
 #include "primitive/dispatch.h"
@@ -136,14 +137,15 @@ class Cells final : public Accelerator {
   // The boundary as the classifier would have found it; false when its material is not known here.
   bool complete(const RayQuery& query, const CellAnswer& answer, Hit& hit, Context& context) const {
     const Leaf& leaf = tree_[answer.surface.leaf];
-    const std::uint32_t owner = cells_.cells[answer.cell].owner;
-    Run run;
-    if (answer.run != CellAnswer::no_run) run = context.scratch.runs[answer.run];
+    LeafId owner;
     if (!leaf.material || leaf.shows_what_it_cut) {
-      if (owner == cells::Owner::varies) return false;
-      if (owner != cells::Owner::nobody) run.owner = LeafId{owner};
+      const std::uint32_t known = cells_.cells[answer.cell].owner;
+      if (known == cells::Owner::varies) return false;
+      if (known != cells::Owner::nobody) owner = LeafId{known};
     }
     if (answer.run != CellAnswer::no_run) {
+      Run run = context.scratch.runs[answer.run];
+      if (owner) run.owner = owner;
       hit = make_hit(tree_, query.ray, run);
       return true;
     }
@@ -156,14 +158,15 @@ class Cells final : public Accelerator {
       if (crossing.entering != answer.leaf_entering) continue;
       if (!(std::fabs(crossing.t - answer.t) * speed <= 2 * cells_.scale.resolution)) continue;
       assert(crossing.bound * speed <= cells_.scale.resolution);
-      run.t = crossing.t;
-      run.bound = crossing.bound;
-      run.surface = {answer.surface.leaf, crossing.face};
-      run.leaf_entering = crossing.entering;
-      run.before = answer.before ? medium_opaque : medium_outside;
-      run.after = answer.before ? medium_outside : medium_opaque;
-      run.faces.push_back(run.surface);
-      hit = make_hit(tree_, query.ray, run);
+      hit.t = crossing.t;
+      hit.bound = crossing.bound;
+      hit.surface = {answer.surface.leaf, crossing.face};
+      hit.is_surface = false;
+      hit.before = answer.before ? medium_opaque : medium_outside;
+      hit.after = answer.before ? medium_outside : medium_opaque;
+      hit.faces.clear();
+      hit.faces.push_back(hit.surface);
+      describe_hit(tree_, query.ray, crossing.entering, owner, hit);
       return true;
     }
     ++context.statistics.seam_faults;

@@ -1,0 +1,29 @@
+#include "csg/describe_hit.h"
+
+#include "csg/prototype.h"
+#include "primitive/dispatch.h"
+
+namespace tenon {
+
+void describe_hit(const CsgTree& tree, const Ray& ray, bool leaf_entering, LeafId owner, Hit& hit) {
+  const Leaf& leaf = tree[hit.surface.leaf];
+  hit.point = ray.at(hit.t);
+  hit.entering = hit.after != medium_outside;
+
+  const Vec3 local = leaf.placement.point_to_local(hit.point);
+  hit.normal = leaf.placement.normal_to_world(normal(tree.primitives, leaf.primitive, local, hit.surface.face));
+  hit.material = face_material(tree, hit.surface, hit.point);
+  if (hit.is_surface) return;
+
+  // Where the ray crosses the leaf and the solid in opposite senses (a cut face, or the far side of one medium that is
+  // the near side of the next) the solid's outward normal is the other one. Subtracted from and added to zero, so that
+  // no component is -0, which JSON would print.
+  const bool opposite = leaf_entering != hit.entering;
+  hit.normal = opposite ? Vec3{} - hit.normal : Vec3{} + hit.normal;
+  if ((!hit.material || leaf.shows_what_it_cut) && owner) hit.material = owner_material(tree, owner, hit.point);
+  // Behind glass that touches an opaque solid it is the opaque solid that is seen.
+  const bool between_media = hit.before != medium_outside && hit.after != medium_outside;
+  if (between_media && hit.after == medium_opaque && owner) hit.material = owner_material(tree, owner, hit.point);
+}
+
+}  // namespace tenon
