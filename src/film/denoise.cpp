@@ -22,6 +22,9 @@ constexpr int normal_squarings = 5;  // the power 32
 // What is divided by less would be noise alone.
 constexpr double least_albedo = 0.01;
 
+// Pixels to each side over which a bias is looked for: variances of so few samples are worth nothing one by one.
+constexpr int bias_reach = 3;
+
 // The B3 spline that the wavelet's scaling function is (Dammertz et al. 2010, §3).
 constexpr std::array<double, 3> kernel{3.0 / 8, 1.0 / 4, 1.0 / 16};
 
@@ -70,6 +73,7 @@ class Denoiser {
   }
 
   void run(const DenoiseOptions& options) {
+    noisy_ = lit_;
     std::vector<Lit> next(lit_.size());
     for (int level = 0; level < denoise_levels; ++level) {
       smooth_variance();
@@ -80,6 +84,7 @@ class Denoiser {
       });
       lit_.swap(next);
     }
+    weigh_against_noisy(options);
   }
 
   Rgb colour(std::size_t i) const { return albedo_[i] * lit_[i].light; }
@@ -168,6 +173,47 @@ class Denoiser {
     return {sum.light * (1 / weights), sum.variance / (weights * weights)};
   }
 
+  // What the filter takes away beyond the noise there was is the picture itself: detail that no layer tells of, such as
+  // what glass shows. The squared differences around a pixel add up to the noise's variance and the square of such a
+  // bias; and a difference of its own beyond three standard errors is no noise. Of two estimates, one of a variance and
+  // one of a bias, that mean errs least which weighs each by the other's squared error.
+  void weigh_against_noisy(const DenoiseOptions& options) {
+    const std::vector<Lit> smooth = lit_;
+    const auto squared_difference = [&](std::size_t i) {
+      const double difference = luminance(noisy_[i].light) - luminance(smooth[i].light);
+      return difference * difference;
+    };
+    parallel_for(static_cast<std::size_t>(height_), options.threads, [&](std::size_t row, int) {
+      const int y = static_cast<int>(row);
+      for (int x = 0; x < width_; ++x) {
+        const std::size_t at = index(x, y);
+        double taken = 0, variance = 0, pixels = 0;
+        for_each_alike(x, y, bias_reach, [&](std::size_t there) {
+          taken += squared_difference(there);
+          variance += noisy_[there].variance;
+          ++pixels;
+        });
+        // One pixel's variance may miss what its samples missed, and be all that tells of a stray one.
+        const double noise = std::max(noisy_[at].variance, variance / pixels);
+        const double bias = std::max((taken - variance) / pixels, squared_difference(at) - 9 * noise);
+        if (!(bias > 0)) continue;
+        const double share = noise / (noise + bias);
+        lit_[at].light = share * smooth[at].light + (1 - share) * noisy_[at].light;
+      }
+    });
+  }
+
+  // Visits the pixels of the same ids up to so many away, itself among them.
+  template <class Visit>
+  void for_each_alike(int x, int y, int reach, const Visit& visit) const {
+    const std::size_t at = index(x, y);
+    for (int qy = std::max(0, y - reach); qy <= std::min(height_ - 1, y + reach); ++qy) {
+      for (int qx = std::max(0, x - reach); qx <= std::min(width_ - 1, x + reach); ++qx) {
+        if (same_ids(at, index(qx, qy))) visit(index(qx, qy));
+      }
+    }
+  }
+
   // From 0, another thing, to 1, the same.
   double likeness(std::size_t at, std::size_t there, double here, int dx, int dy) const {
     if (!same_ids(at, there)) return 0;
@@ -198,7 +244,7 @@ class Denoiser {
   int width_, height_;
   std::vector<const std::vector<std::uint32_t>*> ids_;
   std::vector<Rgb> albedo_;
-  std::vector<Lit> lit_;
+  std::vector<Lit> lit_, noisy_;
   std::vector<Guide> guides_;
   std::vector<double> smooth_error_;
 };
