@@ -87,6 +87,9 @@ Result<ViewRequest> plan_view(const ViewArguments& arguments, double aspect) {
     if (!angles) return angles.error();
     request.angles = *angles;
   }
+  if (arguments.aperture.value_or(0) > 0 && arguments.orthographic) {
+    return usage_error("parallel rays pass no lens; leave --aperture or --orthographic out");
+  }
   request.aperture = arguments.aperture;
   if (!arguments.focus.empty()) {
     const auto numbers = parse_numbers(arguments.focus);

@@ -58,6 +58,7 @@ TEST_F(Usage, ErrorsSayWhatIsWrongAndWriteNothing) {
       {{"render", "a.scad", "--accel", "magic"}, "'magic'; there are: none"},
       {{"render", "a.scad", "--accel", "none:x=1"}, "none"},
       {{"render", "a.scad", "--bits", "32"}, "8 or 16"},
+      {{"render", "a.scad", "--ortho", "--aperture", "1"}, "--aperture"},
       {{"render", "a.scad", "-o", "x.exr", "--bits", "8"}, "16 or 32"},
       {{"render", "a.scad", "--camera", "1,2,3"}, "--camera"},
       {{"render", "a.scad", "--camera", "1,2,3,4,5,6,7,8"}, "--camera"},
