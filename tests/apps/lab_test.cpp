@@ -210,6 +210,58 @@ TEST_F(Lab, EveryTableHasPlausibleFiguresAndThePapersBesideThem) {
   check_structures(tables, structures);
 }
 
+// The pages that are in the repository.
+TEST_F(Lab, CommittedPagesAreOfAFullRunAndSayWhatTheirFiguresSay) {
+  const std::filesystem::path pages = root + "/docs/lab";
+  std::filesystem::create_directories(folder / "again/data");
+  for (const auto& file : std::filesystem::directory_iterator(pages / "data")) {
+    std::filesystem::copy(file.path(), folder / "again/data" / file.path().filename());
+    const Json table = parse(file.path());
+    EXPECT_EQ(table["effort"], "full") << file.path();
+    EXPECT_FALSE(contains(table["origin"]["commit"], "+")) << file.path() << " was measured with other sources";
+    const Json paper = parse(root + "/lab/papers/" + table["paper"].get<std::string>() + ".json");
+    for (const Json& claim : table["claims"]) {
+      const std::string verdict = claim["verdict"];
+      if (verdict == "not comparable") continue;
+      const Json& known = named(paper["claims"], "id", claim["id"]);
+      EXPECT_TRUE(known.contains(verdict == "holds" ? "why_it_holds" : "why_it_fails"))
+          << known["id"] << ' ' << verdict;
+    }
+  }
+  ASSERT_EQ(run({"lab", "--root", root, "--pages", "-o", "again"}).status, 0);
+  for (const auto& file : std::filesystem::directory_iterator(pages)) {
+    if (file.path().extension() != ".md") continue;
+    std::ostringstream committed;
+    committed << std::ifstream(file.path(), std::ios::binary).rdbuf();
+    EXPECT_EQ(read("again/" + file.path().filename().string()), committed.str())
+        << "write them again: tenon lab --pages -o docs/lab";
+  }
+}
+
+// Each curve is in the drawing by name, and an end at the time limit is marked.
+TEST_F(Lab, CommittedPlotsAreThoseOfTheFigures) {
+  const std::filesystem::path pages = root + "/docs/lab";
+  std::size_t plots = 0;
+  for (const auto& file : std::filesystem::directory_iterator(pages / "data")) {
+    const Json table = parse(file.path());
+    for (const Json& plot : table["plots"]) {
+      std::ostringstream text;
+      text << std::ifstream(pages / "plots" / (plot["name"].get<std::string>() + ".svg")).rdbuf();
+      const std::string drawing = text.str();
+      ++plots;
+      EXPECT_TRUE(contains(drawing, plot["title"])) << plot["name"];
+      EXPECT_TRUE(contains(drawing, plot["y_label"])) << plot["name"];
+      bool cut_off = false;
+      for (const Json& series : plot["series"]) {
+        EXPECT_TRUE(contains(drawing, ">" + series["name"].get<std::string>() + "<")) << series["name"];
+        cut_off = cut_off || series["cut_off"];
+      }
+      EXPECT_EQ(contains(drawing, "ends at the time limit"), cut_off) << plot["name"];
+    }
+  }
+  EXPECT_GE(plots, 8U);
+}
+
 TEST_F(Lab, PlotsAreDrawn) {
   if (std::system("/usr/bin/python3 -c 'import matplotlib' 2>/dev/null") != 0) GTEST_SKIP() << "no matplotlib";
   std::filesystem::create_directories(folder / "data");

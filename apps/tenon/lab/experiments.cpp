@@ -24,7 +24,7 @@ const std::vector<Experiment>& experiments() {
       {"okd-4", "okd", 240, run_okd_small_shell},
       {"okd-turns", "okd", 58, run_okd_turns},
       {"okd-finer", "okd", 14, run_okd_finer},
-      {"scaling-size", "scaling", 190, run_scaling_size},
+      {"scaling-size", "scaling", 150, run_scaling_size},
       {"scaling-stadium", "scaling", 70, run_scaling_stadium},
       {"scaling-overlap", "scaling", 55, run_scaling_overlap},
       {"scaling-balance", "scaling", 15, run_scaling_balance},

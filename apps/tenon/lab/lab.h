@@ -17,7 +17,7 @@ struct LabEffort {
   double scale = 1;           ///< of the pictures' sides
   int rounds = 5;             ///< that contenders take turns in
   double most_spheres = 1e6;  ///< of the scaling curves
-  double curve_seconds = 40;  ///< CPU seconds that one point of a scaling curve may take
+  double curve_seconds = 20;  ///< CPU seconds that one point of a scaling curve may take
 };
 
 /// A scene of the lab, ready to be traced.
