@@ -54,8 +54,7 @@ class StreamTracer {
   // A ray under way, and where it is.
   struct Slot {
     std::uint32_t ray;
-    std::uint32_t node;
-    std::uint32_t cell;
+    std::uint32_t index;  // of the node that it opens next, or the cell that it meets
     float t_in, t_out;
   };
 
@@ -65,7 +64,7 @@ class StreamTracer {
     const auto ray = static_cast<std::uint32_t>(std::countr_zero(left_));
     left_ &= left_ - 1;
     slots_[slot].ray = ray;
-    slots_[slot].node = 0;
+    slots_[slot].index = 0;
     stacks_[slot].Clear();
     stacks_[slot].Push(end_of_stack);
     open_[slots_open_++] = slot;
@@ -77,7 +76,7 @@ class StreamTracer {
     if (visit.child.bits == end_of_stack.bits) return Refill(slot);
     Slot& s = slots_[slot];
     const bool is_cell = visit.child.is_cell();
-    s.node = s.cell = visit.child.index();
+    s.index = visit.child.index();
     s.t_in = visit.t_in;
     s.t_out = visit.t_out;
     open_[slots_open_] = slot;
@@ -95,7 +94,7 @@ class StreamTracer {
                        {&rays_.box_inverse[0][i], &rays_.box_inverse[1][i], &rays_.box_inverse[2][i]},
                        rays_.box_end[i],
                        rays_.octant[i]};
-      stacks_[slot].Open(cells_.nodes[slots_[slot].node], ray);
+      stacks_[slot].Open(cells_.nodes[slots_[slot].index], ray);
     }
     slots_open_ = 0;
     for (std::size_t k = 0; k < count; ++k) Advance(open_[k]);
@@ -121,7 +120,7 @@ class StreamTracer {
       const Slot& s = slots_[slot];
       TraversalCounters& counters = (*statistics_)[rays_.queries[s.ray].kind];
       ++counters.cells_visited;
-      const Cell& cell = cells_.cells[s.cell];
+      const Cell& cell = cells_.cells[s.index];
       if (cell.general || cell.extended) {
         LeaveToOthers(slot);
         continue;
@@ -279,8 +278,8 @@ class StreamTracer {
         const std::size_t i = slots_[slot].ray;
         found_.t[i] = t[lane];
         found_.place[i] = place[lane];
-        found_.cell[i] = slots_[slot].cell;
-        found_.leaf[i] = cells_.cells[slots_[slot].cell].leaves[static_cast<std::size_t>(place[lane])];
+        found_.cell[i] = slots_[slot].index;
+        found_.leaf[i] = cells_.cells[slots_[slot].index].leaves[static_cast<std::size_t>(place[lane])];
         found_.flags[i] =
             BatchFindings::flags_of((enters >> lane & 1) != 0, (inside >> lane & 1) != 0, (crowded >> lane & 1) != 0);
         Refill(slot);
@@ -295,7 +294,7 @@ class StreamTracer {
     for (; lanes != 0; lanes &= lanes - 1) {
       const std::size_t lane = at + static_cast<std::size_t>(std::countr_zero(lanes));
       const std::size_t i = ray_[lane];
-      const Cell& cell = cells_.cells[slots_[slot_[lane]].cell];
+      const Cell& cell = cells_.cells[slots_[slot_[lane]].index];
       for (std::uint32_t place = 0; place < cell.leaf_count; ++place) {
         const bool clear = SingleTracer::ClearStart(rays_.queries[i], cell, place, rays_.near[i], cells_.records,
                                                     enter_[place][lane], leave_[place][lane]);
