@@ -196,7 +196,9 @@ class Turner {
     }
     const Result<PrimitiveId> made = builder.model().graph.primitives.add(*PrimitiveStore::find_kind("revolution"),
                                                                           std::vector<FieldValue>{outline});
-    return made ? builder.leaf(*made) : Solid::nothing();
+    if (made) return builder.leaf(*made);
+    evaluator_.environment().warn(at_, "rotate_extrude() leaves a part of its shape out: " + made.error().message);
+    return Solid::nothing();
   }
 
   ModuleEvaluator& evaluator_;

@@ -16,7 +16,7 @@ namespace tenon {
 /// Appends all crossings of the ray's whole line with the primitive, sorted by t, to `out`. See Crossing and LocalRay.
 void spans(const PrimitiveStore& store, PrimitiveId id, const LocalRay& ray, Spans& out);
 
-/// The same for a ray of the world: maps it, and adds the shift to every t.
+/// The same for a ray of the world from t = 0 on: for what lies before, an entrance at -inf may stand (spans_from()).
 void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const Ray& ray, double tolerance,
            int on_face, Spans& out);
 /// The same for a ray of the frame that the placement is in, which may be the local frame of something larger.

@@ -27,17 +27,24 @@ void find_box(OutlineEdge& edge) {
   edge.lower = min(edge.from, edge.to);
   edge.upper = max(edge.from, edge.to);
   if (!edge.is_arc()) return;
-  if (std::fabs(edge.bulge) <= 1) {
-    const Vec2 a = edge.from + rise(edge), b = edge.to + rise(edge);
-    edge.lower = min(edge.lower, min(a, b));
-    edge.upper = max(edge.upper, max(a, b));
+  const auto take = [&edge](const Vec2& p) {
+    edge.lower = min(edge.lower, p);
+    edge.upper = max(edge.upper, p);
+  };
+  Vec2 terms{};
+  if (std::fabs(edge.bulge) < flat_bulge) {
+    take(edge.from + rise(edge));
+    take(edge.to + rise(edge));
   } else {
+    // Of the circle's ends along the axes those count that lie on the arc's side of the chord.
     const auto [c, r] = circle_of(edge);
-    edge.lower = min(edge.lower, c - Vec2{r, r});
-    edge.upper = max(edge.upper, c + Vec2{r, r});
+    for (const Vec2& end : {c - Vec2{r, 0}, c + Vec2{r, 0}, c - Vec2{0, r}, c + Vec2{0, r}}) {
+      if ((cross(edge.chord(), end - edge.from) < 0) == (edge.bulge > 0)) take(end);
+    }
+    terms = abs(c) + Vec2{r, r};
   }
-  // A dozen roundings of terms no larger than the box and the coordinates.
-  const Vec2 size = edge.upper - edge.lower + max(abs(edge.lower), abs(edge.upper));
+  // A dozen roundings of terms no larger than the box, the coordinates and the circle.
+  const Vec2 size = edge.upper - edge.lower + max(abs(edge.lower), abs(edge.upper)) + terms;
   edge.lower = edge.lower - gamma(16) * size;
   edge.upper = edge.upper + gamma(16) * size;
 }

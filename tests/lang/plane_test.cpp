@@ -115,6 +115,12 @@ TEST(RotateExtrude, CutsAtTheAxis) {
   // The outline begins right of the axis, at [5, 0], and comes back there.
   EXPECT_EQ(tree_of("rotate_extrude() translate([2, 0]) polygon([[3, 0], [-3, 4], [-3, -4]]);"),
             "revolution(outline = [[[5, 0], [0, 3.3333333333333335], [0, -3.3333333333333335]]]);\n");
+  // Arcs that end on the axis on their way towards it, and arcs that touch it, do not reach over it.
+  EXPECT_EQ(tree_of("rotate_extrude() translate([3, 0]) circle(5);").substr(0, 33),
+            "revolution(outline = [[[3, -5, 1]");
+  const std::string rounded = "rotate_extrude() offset(r = 1) translate([1, 1]) square([5, 5]);";
+  EXPECT_NE(tree_of(rounded).find("revolution"), std::string::npos);
+  EXPECT_EQ(warnings_of(rounded), "");
   // Left of the axis as a whole: the same solid.
   EXPECT_EQ(tree_of("rotate_extrude() translate([-3, 0]) square(1);"),
             "revolution(outline = [[[3, 0], [2, 0], [2, 1], [3, 1]]]);\n");

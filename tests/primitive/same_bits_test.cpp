@@ -71,7 +71,7 @@ TEST(SameBits, OnEveryCompilerAndMachine) {
       }
     }
   }
-  EXPECT_EQ(hash, 12978707613906947348u);
+  EXPECT_EQ(hash, 15595377229323869460u);
 }
 
 }  // namespace

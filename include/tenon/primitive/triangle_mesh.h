@@ -11,7 +11,7 @@ namespace tenon {
 
 /// What finds the triangles that a ray meets, within the primitive (Zajíček 2012, §3.2). The answers are the same.
 enum class MeshStructure {
-  bvh,  ///< a bounding volume hierarchy, four children a node
+  bvh,  ///< a bounding volume hierarchy, eight children a node
   kd,   ///< the thesis's kd-tree
 };
 
