@@ -17,7 +17,7 @@ picture() {
   esac
 }
 
-picture demo demo --size 800x600 --spp 9
+picture lantern lantern --size 640x480 --integrator path --spp 64 --depth 8 --denoise
 picture bracket bracket --size 480x360 --spp 16
 picture bracket_cut bracket --size 480x360 --spp 16 --cut -y --hatch
 picture valve valve --size 640x480 --spp 16
