@@ -71,7 +71,7 @@ void measure_classify(benchmark::State& state, const PrimitiveKind& kind) {
   for (LocalBox& box : boxes) {
     const Vec3 center = subject.placement.world_from_local().point(subject.point(random));
     const Vec3 half = 0.1 * max_component(subject.bounds.size()) * (Subject::in_cube(random) + Vec3{1.1, 1.1, 1.1});
-    box = subject.placement.to_local({center - half, center + half});
+    box = subject.placement.to_local(Box3{center - half, center + half});
   }
   std::size_t i = 0, certain = 0;
   for ([[maybe_unused]] auto _ : state) {

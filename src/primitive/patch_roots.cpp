@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "primitive/patch_resultant.h"
 #include "tenon/math/rounding.h"
@@ -182,7 +181,7 @@ class PatchSearch {
   // Newton's method in the part's own coordinates.
   bool find_root(const Part& part, const Combination& F, const Combination& G) {
     constexpr int most_steps = 16;
-    double u = 0.5, v = 0.5, moved = std::numeric_limits<double>::infinity();
+    double u = 0.5, v = 0.5;
     for (int step = 0; step < most_steps; ++step) {
       const PatchPoint<double> f = evaluate(F.net, u, v), g = evaluate(G.net, u, v);
       const double determinant = f.by_u * g.by_v - f.by_v * g.by_u;
@@ -191,13 +190,10 @@ class PatchSearch {
       u -= du;
       v -= dv;
       if (!(std::fabs(u - 0.5) <= 1 && std::fabs(v - 0.5) <= 1)) return false;
-      moved = std::max(std::fabs(du), std::fabs(dv));
-      if (moved <= 4 * unit_roundoff) break;
+      if (std::max(std::fabs(du), std::fabs(dv)) <= 4 * unit_roundoff) break;
     }
     // The slopes are within a factor of two of the identity's.
     const double u_slip = 4 * (F.error + G.error) + gamma(8), v_slip = u_slip;
-    // Where there is no root in the part it may go to and fro; smaller parts tell.
-    if (!(moved <= u_slip)) return false;
     if (u < -u_slip || u > 1 + u_slip || v < -v_slip || v > 1 + v_slip) return true;
     add_root(part.u0 + u * (part.u1 - part.u0), part.v0 + v * (part.v1 - part.v0), 0, 0);
     return true;

@@ -168,8 +168,8 @@ TEST_F(LongWork, CheckpointThatFindsNoRoomIsAWarningAndTheOneBeforeStays) {
   getrlimit(RLIMIT_FSIZE, &old);
   const rlimit limited{20000, old.rlim_max};
   setrlimit(RLIMIT_FSIZE, &limited);
-  const pid_t child = start({"render", "ball.scad", "-q", "--size", "200x150", "--spp", "64", "-o", "out.png",
-                             "--checkpoint", "work.exr", "--checkpoint-every", "0.01", "--time", "0.3"});
+  const pid_t child = start({"render", "ball.scad", "-q", "--size", "200x150", "--spp", "4096", "-o", "out.png",
+                             "--checkpoint", "work.exr", "--checkpoint-every", "0.01", "--time", "2"});
   setrlimit(RLIMIT_FSIZE, &old);
   const Outcome outcome = wait_for(child);
   EXPECT_TRUE(contains(outcome.err, "the work goes on without this checkpoint")) << outcome.err;

@@ -128,30 +128,6 @@ TEST(PatchRoots, MethodsAgree) {
   EXPECT_EQ(disagreements, 0);
 }
 
-// Beside the silhouette of a teapot Newton's method goes to and fro, and where it stops is no root.
-TEST(PatchRoots, LieOnTheLineBesideASilhouette) {
-  const double rings[][2] = {{1.5, 2.4}, {1.75, 1.875}, {2, 1.35}, {2, 0.9}};
-  LocalRay ray;
-  ray.origin = {3.2, -9.4, 5};
-  for (int step = 0; step < 400; ++step) {
-    ray.direction = Vec3{-0.1495 + 2e-5 * step, 0.95525302709726467, -0.2989742572808764};
-    for (const double side : {-1.0, 1.0}) {
-      BezierNet<Vec3> net;
-      for (std::size_t i = 0; i < 4; ++i) {
-        const auto [r, z] = rings[i];
-        net[4 * i] = {r, 0, z};
-        net[4 * i + 1] = {r, side * 0.56 * r, z};
-        net[4 * i + 2] = {0.56 * r, side * r, z};
-        net[4 * i + 3] = {0, side * r, z};
-      }
-      for (const PatchRoot& root : roots_of(net, ray, PatchMethod::interval)) {
-        const Vec3 aside = evaluate(net, root.u, root.v).value - (ray.origin + root.t * ray.direction);
-        EXPECT_LE(length(aside), 1e-9) << "direction.x = " << ray.direction.x;
-      }
-    }
-  }
-}
-
 // What the resultant leaves out is little enough to be of use.
 TEST(PatchResultant, LeavesOutMostOfThePatch) {
   Random random(4);
