@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace tenon::bench {
+namespace {
+
+// bench/page.py on made-up results, one file a part.
+class BenchPage : public ::testing::Test {
+ protected:
+  BenchPage() { std::filesystem::create_directories(folder_); }
+  ~BenchPage() override { std::filesystem::remove_all(folder_); }
+
+  void write(const std::string& part, const std::string& rows) { std::ofstream(folder_ / (part + ".json")) << rows; }
+
+  std::string page() {
+    const std::string script = std::string(TENON_ROOT) + "/bench/page.py", out = (folder_ / "page.md").string();
+    const std::string command =
+        "cd " TENON_ROOT " && /usr/bin/python3 '" + script + "' '" + folder_.string() + "' '" + out + "'";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    std::ostringstream text;
+    text << std::ifstream(out).rdbuf();
+    return text.str();
+  }
+
+  const std::filesystem::path folder_ =
+      std::filesystem::path(::testing::TempDir()) /
+      (std::string("tenon_bench_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_F(BenchPage, HoldsRatiosTheirMeanAndTheLeast) {
+  if (std::system("/usr/bin/python3 -c '' 2>/dev/null") != 0) GTEST_SKIP() << "no Python";
+  write("structures", R"([
+    {"scene": "a", "rays": "primary", "contender": "cells", "mrays_per_second": 8},
+    {"scene": "a", "rays": "primary", "contender": "cells, ray by ray", "mrays_per_second": 7},
+    {"scene": "a", "rays": "primary", "contender": "slow", "mrays_per_second": 1},
+    {"scene": "a", "rays": "primary", "contender": "less slow", "mrays_per_second": 4},
+    {"scene": "b", "rays": "primary", "contender": "cells", "mrays_per_second": 9},
+    {"scene": "b", "rays": "primary", "contender": "slow", "mrays_per_second": 0.5}])");
+  const std::string text = page();
+  EXPECT_TRUE(has(text, "| a | 2 |")) << text;
+  EXPECT_TRUE(has(text, "| b | 18 |")) << text;
+  EXPECT_TRUE(has(text, "| **geometric mean** | **6** |")) << text;
+  EXPECT_TRUE(has(text, "| least | 2 |")) << text;
+  EXPECT_TRUE(has(text, "| a | primary | 8 | 4 | less slow |")) << text;
+  EXPECT_FALSE(has(text, "POV-Ray")) << "a part that was not measured";
+}
+
+TEST_F(BenchPage, SetsBatchesAgainstPacketsAndSingleRaysAgainstSingleRays) {
+  if (std::system("/usr/bin/python3 -c '' 2>/dev/null") != 0) GTEST_SKIP() << "no Python";
+  write("embree", R"([
+    {"scene": "a", "figure": "mesh 1920: triangles", "value": 12345, "unit": ""},
+    {"scene": "a", "rays": "shadow", "contender": "tenon cells", "mrays_per_second": 30},
+    {"scene": "a", "rays": "shadow", "contender": "tenon cells, ray by ray", "mrays_per_second": 5},
+    {"scene": "a", "rays": "shadow", "contender": "embree 1 mesh 1920", "mrays_per_second": 10},
+    {"scene": "a", "rays": "shadow", "contender": "embree 8 mesh 1920", "mrays_per_second": 25},
+    {"scene": "a", "rays": "shadow", "contender": "embree 16 mesh 1920", "mrays_per_second": 60}])");
+  const std::string text = page();
+  const auto packets = text.find("| a | 0.5 |"), batches = text.find("| a | 3 |"),
+             singly = text.find("| a | 0.5 |", batches);
+  EXPECT_LT(packets, batches) << text;
+  EXPECT_NE(singly, std::string::npos) << text;
+  EXPECT_TRUE(has(text, "| a | shadow | 12,345 | 30 | 5 | 10 | 25 | 60 |")) << text;
+}
+
+}  // namespace
+}  // namespace tenon::bench
