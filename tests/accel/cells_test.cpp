@@ -125,6 +125,22 @@ TEST(Cells, PacketsSayWhatSingleRaysSay) {
   EXPECT_GT(found, queries.size() / 4);
 }
 
+struct Answers {
+  std::vector<Hit> hits;
+  std::vector<RayBoundary> boundaries;
+  std::vector<std::uint8_t> occluded;
+};
+
+// All that may be asked of many rays at once.
+Answers ask_together(const Accelerator& accelerator, std::span<const RayQuery> queries, TraceContext& context) {
+  const std::size_t count = queries.size();
+  Answers answers{std::vector<Hit>(count), std::vector<RayBoundary>(count), std::vector<std::uint8_t>(count)};
+  accelerator.first_hits(queries, answers.hits, context);
+  accelerator.first_boundaries(queries, answers.boundaries, context);
+  accelerator.occluded(queries, answers.occluded, context);
+  return answers;
+}
+
 // Rays in all directions, which are followed several at once; from free space, from what they met, along
 // axes, to an end, and from further off than single precision can tell.
 void expect_streams_say_what_single_rays_say(const CsgTree& tree, int count) {
@@ -152,12 +168,7 @@ void expect_streams_say_what_single_rays_say(const CsgTree& tree, int count) {
     query.kind = queries.size() % 3 == 0 ? RayKind::reflected : RayKind::diffuse;
     queries.push_back(query);
   }
-  std::vector<Hit> hits(queries.size());
-  std::vector<RayBoundary> boundaries(queries.size());
-  std::vector<std::uint8_t> occluded(queries.size());
-  (*judged)->first_hits(queries, hits, *other);
-  (*judged)->first_boundaries(queries, boundaries, *other);
-  (*judged)->occluded(queries, occluded, *other);
+  const auto [hits, boundaries, occluded] = ask_together(**judged, queries, *other);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const Hit hit = (*none)->first_hit(queries[i], *context);
     ASSERT_TRUE(battery::same_hit(hit, hits[i]))
@@ -211,12 +222,7 @@ TEST(Cells, BlocksThatDoNotPaySayWhatSingleRaysSay) {
     query.kind = RayKind::shadow;
     queries.push_back(query);
   }
-  std::vector<Hit> hits(queries.size());
-  std::vector<RayBoundary> boundaries(queries.size());
-  std::vector<std::uint8_t> occluded(queries.size());
-  (*judged)->first_hits(queries, hits, *other);
-  (*judged)->first_boundaries(queries, boundaries, *other);
-  (*judged)->occluded(queries, occluded, *other);
+  const auto [hits, boundaries, occluded] = ask_together(**judged, queries, *other);
   std::size_t found = 0;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const Hit hit = (*multi_kd)->first_hit(queries[i], *context);
@@ -229,17 +235,17 @@ TEST(Cells, BlocksThatDoNotPaySayWhatSingleRaysSay) {
   EXPECT_LT(found, queries.size());
 }
 
-// More work gives more and smaller cells.
+// More work gives more and smaller cells: in a scene of some size, for in a small one a better plane may save some.
 TEST(Cells, QualityIsWorkInTheSubdivision) {
-  const CsgTree tree = gallery::random_scene(6, 60, 3);
+  const CsgTree tree = gallery::random_scene(6, 400, 6);
   std::vector<double> counts;
   for (const char* spec : {"cells:quality=fast", "cells", "cells:quality=high"}) {
     const auto accelerator = build_accelerator(spec, tree);
     ASSERT_TRUE(accelerator.ok());
     counts.push_back(detail(**accelerator, "boundary cells"));
   }
-  EXPECT_LT(counts[0], counts[1]);
-  EXPECT_LT(counts[1], counts[2]);
+  EXPECT_LT(1.5 * counts[0], counts[1]);
+  EXPECT_LT(1.5 * counts[1], counts[2]);
 }
 
 // The tree is the same for any number of threads.
