@@ -84,7 +84,8 @@ def structures_page(rows):
     return [
         "## Against the structures of the papers",
         "",
-        "How many times as fast as the fastest of them on each scene: rays a second, in batches, boundaries alone.",
+        "How many times as fast as the fastest of them on each scene: rays a second, in batches, boundaries alone. Shadow rays",
+        "and diffuse ones start on the surface, or as near to it as makes no difference.",
         "",
         *by_scene(measured, ratio),
         "<details><summary>Millions of rays a second</summary>",
@@ -112,7 +113,8 @@ def embree_page(rows):
         "## Against triangle meshes",
         "",
         "Embree 3.13 on a mesh of the same solid that strays a quarter of a pixel at most, 1920 pixels wide. How many times as",
-        "fast Tenon is on the solid itself, by the same stored rays; below 1 it is slower. In batches, against packets of 16:",
+        "fast Tenon is on the solid itself, by the same stored rays, which start above either; below 1 it is slower. In batches,",
+        "against packets of 16:",
         "",
         *against("embree 16", own),
         "In batches, against Embree's single rays:",
@@ -140,12 +142,14 @@ def povray_page(rows):
     ]
 
 
-def figures_page(title, text, rows, unit=None):
-    names = list(dict.fromkeys(row["figure"] for row in rows if "figure" in row and unit in (None, row["unit"])))
+def figures_page(title, text, rows):
+    names = list(dict.fromkeys(row["figure"] for row in rows if "figure" in row))
     scenes = dict.fromkeys(row["scene"] for row in rows if row.get("figure") in names)
     columns = {name: figures(rows, name) for name in names}
+    units = {row["figure"]: row["unit"] for row in rows if "figure" in row}
+    heads = [f"{name}, {units[name]}" if units[name] else name for name in names]
     lines = [[scene, *(number(columns[n][scene]) if scene in columns[n] else "" for n in names)] for scene in scenes]
-    return [f"## {title}", "", text, "", *table(["", *names], lines)]
+    return [f"## {title}", "", text, "", *table(["", *heads], lines)]
 
 
 def growth_page(rows):
