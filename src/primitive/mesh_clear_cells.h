@@ -40,7 +40,8 @@ class ClearCells {
   int index_of(double coordinate, int axis) const;
   double middle_of(int index, int axis) const { return bounds_.lower[axis] + (index + 0.5) * edge_; }
   std::size_t place_of(const Index& cell) const {
-    return static_cast<std::size_t>((cell[2] * counts_[1] + cell[1]) * counts_[0] + cell[0]);
+    const auto place = [](int i) { return static_cast<std::size_t>(i); };
+    return (place(cell[2]) * place(counts_[1]) + place(cell[1])) * place(counts_[0]) + place(cell[0]);
   }
   bool mark(const TriangleMesh& mesh);
   void wind(const TriangleMesh& mesh, Walk walk);
