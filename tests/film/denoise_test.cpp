@@ -119,7 +119,8 @@ TEST(Denoise, WhatIsCertainStaysAsItIs) {
 }
 
 // What is seen in glass is in no layer. However little noise there is, the filter must leave nothing clearly worse than
-// it was; it mixes pixels that differ by no more than their noise, and so may add a sixth of that.
+// it was: it mixes pixels that differ by no more than their noise, so it adds some of that. How much has no bound that
+// follows from the method; a fifth is just over what it adds here at the least noise.
 TEST(Denoise, DetailThatNoLayerTellsOfIsNoNoise) {
   for (const double error : {0.2, 0.1, 0.05, 0.02, 0.01, 0.001}) {
     Wall wall(0.5, error, 12);

@@ -58,8 +58,7 @@ HWY_INLINE Vec3Lanes<D> Scale3(const Vec3Lanes<D>& scale, const Vec3Lanes<D>& v)
   return {hn::Mul(scale.x, v.x), hn::Mul(scale.y, v.y), hn::Mul(scale.z, v.z)};
 }
 
-/// Numbers of one place in as many lists as there are lanes. Where gathers are slow, as on AMD's Zen 4, this is several
-/// times faster than they are.
+/// Numbers of one place in as many lists as there are lanes, one by one: gathers are slower on AMD's Zen 4.
 template <class D, class ListOf>
 HWY_INLINE hn::Vec<D> TakeEach(D d, const ListOf& list_of) {
   HWY_ALIGN double lanes[hn::MaxLanes(D())];
