@@ -26,9 +26,8 @@ struct BatchFindings {
 
   enum Flag : std::uint8_t { entering = 1, was_inside = 2, group = 4 };
 
-  HWY_ALIGN double t[most_rays];             ///< of the first boundary so far, counted from the start
-  HWY_ALIGN std::uint64_t place[most_rays];  ///< of its leaf in the cell
-  std::uint32_t cell[most_rays];             ///< or `none`
+  HWY_ALIGN double t[most_rays];  ///< of the first boundary so far, counted from the start
+  std::uint32_t cell[most_rays];  ///< or `none`
   LeafId leaf[most_rays];
   std::uint8_t flags[most_rays];
   std::uint64_t unsure = 0;  ///< rays that are left to SingleTracer

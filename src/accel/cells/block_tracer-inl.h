@@ -263,8 +263,8 @@ class BlockTracer {
     std::uint32_t bits = RayBatch::Bits(better);
     if (bits == 0) return shorter;
     hn::Store(hn::IfThenElse(better, walk.t, best), d, &found_.t[at]);
-    const auto known_place = hn::Load(u, &found_.place[at]);
-    hn::Store(hn::IfThenElse(hn::RebindMask(u, better), walk.place, known_place), u, &found_.place[at]);
+    HWY_ALIGN std::uint64_t place[double_lanes];
+    hn::Store(walk.place, u, place);
     // Nothing behind the boundary counts; rounded up, for cells whose boxes overlap by the slack.
     const HalfF f;
     const auto end = hn::DemoteTo(f, hn::Mul(walk.t, hn::Set(d, 1 + 0x1p-20)));
@@ -276,7 +276,7 @@ class BlockTracer {
       const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
       const std::size_t i = at + lane;
       found_.cell[i] = index;
-      found_.leaf[i] = cell.leaves[static_cast<std::size_t>(found_.place[i])];
+      found_.leaf[i] = cell.leaves[static_cast<std::size_t>(place[lane])];
       const double certain = found_.t[i] + rays_.start[i] + 2 * rays_.near[i];
       const bool is_done = any_will_do_ && certain < rays_.end[i];
       rays_.box_end[i] = is_done ? -1 : std::min(rays_.box_end[i], ends[lane]);

@@ -277,7 +277,6 @@ class StreamTracer {
       } else if ((met >> lane & 1) != 0) {
         const std::size_t i = slots_[slot].ray;
         found_.t[i] = t[lane];
-        found_.place[i] = place[lane];
         found_.cell[i] = slots_[slot].index;
         found_.leaf[i] = cells_.cells[slots_[slot].index].leaves[static_cast<std::size_t>(place[lane])];
         found_.flags[i] =
