@@ -49,7 +49,7 @@ TEST_F(Animation, ResumeLeavesFramesAloneThatAreThere) {
 }
 
 TEST_F(Animation, InterruptLeavesNoFrameHalfDone) {
-  const std::vector<std::string> line = words({"--spp", "2000", "--integrator", "path", "--animate", "2"});
+  const std::vector<std::string> line = words({"--spp", "60000", "--integrator", "path", "--animate", "2"});
   const pid_t child = start(line);
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   kill(child, SIGINT);
