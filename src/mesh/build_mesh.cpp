@@ -4,6 +4,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "mesh/idle_parts.h"
 #include "mesh/self_intersection.h"
 #include "mesh/triangulate.h"
 #include "primitive/mesh_edges.h"
@@ -68,7 +69,7 @@ class MeshBuilder {
     if (!hull_) {
       if (const auto open = find_open_edges(mesh().triangles)) return not_closed(*open);
       face_outward();
-      tell_self_intersection();
+      tell_overlaps();
     }
     return std::move(built_);
   }
@@ -203,15 +204,31 @@ class MeshBuilder {
   }
 
   // The solid is well defined all the same, but seldom what was meant where parts overlap unseen.
-  void tell_self_intersection() {
+  void tell_overlaps() {
     const auto crossing = find_self_intersection(mesh());
-    if (!crossing) return;
-    const bool many = crossing->count >= SelfIntersection::most_counted;
+    if (crossing) tell(*crossing);
+    const IdleParts idle = find_idle_parts(mesh());
+    tell(idle.inside_out, idle.part_count, "inside out, with no solid around; nothing is left of it: turn its faces");
+    if (crossing) return;
+    tell(idle.swallowed, idle.part_count,
+         "within another, and faces outward, so that it adds nothing: turn its faces if it is meant as a hollow");
+  }
+
+  void tell(const SelfIntersection& crossing) {
+    const bool many = crossing.count >= SelfIntersection::most_counted;
     built_.notes.push_back(what_ + " passes through itself: " + (many ? "at least " : "") +
-                           std::to_string(crossing->count) + (crossing->count == 1 ? " pair" : " pairs") +
-                           " of its triangles; first, triangles " + std::to_string(crossing->first) + " and " +
-                           std::to_string(crossing->second) + " near " + place(crossing->place) +
+                           std::to_string(crossing.count) + (crossing.count == 1 ? " pair" : " pairs") +
+                           " of its triangles; first, triangles " + std::to_string(crossing.first) + " and " +
+                           std::to_string(crossing.second) + " near " + place(crossing.place) +
                            "; the solid is the union of its parts, what the mesh winds around at least once");
+  }
+
+  void tell(const IdleParts::Parts& idle, std::size_t part_count, const std::string& about) {
+    if (idle.count == 0) return;
+    const Vec3& corner = mesh().vertices[mesh().triangles[idle.first][0]];
+    built_.notes.push_back("of the " + std::to_string(part_count) + " parts of " + what_ + ' ' +
+                           std::to_string(idle.count) + (idle.count == 1 ? " is " : " are each ") + about +
+                           "; first, the part of triangle " + std::to_string(idle.first) + " at " + place(corner));
   }
 
   const PolygonSoup& soup_;

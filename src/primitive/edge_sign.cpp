@@ -3,54 +3,16 @@
 #include <array>
 #include <cmath>
 
-#include "tenon/math/rounding.h"
+#include "math/expansion.h"
 
 namespace tenon {
 
 namespace {
 
-// A sum of doubles held exactly: its terms do not overlap, and the last is the largest (Shewchuk, theorem 10).
-class Expansion {
- public:
-  void add(double term) {
-    if (term == 0) return;
-    double carry = term;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < size_; ++i) {
-      const double sum = carry + terms_[i];
-      const double slip = sum_error(carry, terms_[i], sum);
-      if (slip != 0) terms_[kept++] = slip;
-      carry = sum;
-    }
-    if (carry != 0) terms_[kept++] = carry;
-    size_ = kept;
-  }
-  void add_product(double a, double b) {
-    const double product = a * b;
-    add(product_error(a, b, product));
-    add(product);
-  }
-  void add_product(double a, double b, double c) {
-    const double product = a * b;
-    add_product(product_error(a, b, product), c);
-    add_product(product, c);
-  }
-  int sign() const { return size_ == 0 ? 0 : terms_[size_ - 1] > 0 ? 1 : -1; }
+// edge_sign() adds six products of three factors, two of them of two terms each; each product has four terms.
+using EdgeSum = Expansion<96>;
 
- private:
-  // edge_sign() adds six products of three factors, two of them of two terms each; each product has four terms.
-  std::array<double, 96> terms_{};
-  std::size_t size_ = 0;
-};
-
-// a - b without rounding.
-struct Difference {
-  double high, low;
-
-  Difference(double a, double b) : high(a - b), low(sum_error(a, -b, high)) {}
-};
-
-void add_product(Expansion& sum, const Difference& a, const Difference& b, double c) {
+void add_product(EdgeSum& sum, const Difference& a, const Difference& b, double c) {
   for (const double x : {a.low, a.high}) {
     for (const double y : {b.low, b.high}) sum.add_product(x, y, c);
   }
@@ -61,7 +23,7 @@ int exact_sign(const Vec3& origin, const Vec3& direction, const Vec3& a, const V
     return std::array{Difference(p.x, origin.x), Difference(p.y, origin.y), Difference(p.z, origin.z)};
   };
   const auto from_a = from_origin(a), from_b = from_origin(b);
-  Expansion sum;
+  EdgeSum sum;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
     const double d = direction[static_cast<int>(k)];
@@ -75,7 +37,7 @@ int exact_sign(const Vec3& origin, const Vec3& direction, const Vec3& a, const V
 int cross_sign(const Vec3& direction, const Vec3& a, const Vec3& b, int i) {
   const int j = (i + 1) % 3, k = (i + 2) % 3;
   const Difference along_j(a[j], b[j]), along_k(a[k], b[k]);
-  Expansion sum;
+  EdgeSum sum;
   for (const double x : {along_j.low, along_j.high}) sum.add_product(x, direction[k]);
   for (const double x : {along_k.low, along_k.high}) sum.add_product(x, -direction[j]);
   return sum.sign();

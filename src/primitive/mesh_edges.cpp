@@ -1,21 +1,11 @@
 #include "primitive/mesh_edges.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace tenon {
 
-namespace {
-
-// An edge of a triangle, its ends in rising order.
-struct Use {
-  std::uint32_t low, high;
-  std::uint32_t triangle;
-  bool rising;
-};
-
-std::vector<Use> sorted_uses(std::span<const TriangleMesh::Corners> triangles) {
-  std::vector<Use> uses;
+std::vector<EdgeUse> sorted_edge_uses(std::span<const TriangleMesh::Corners> triangles) {
+  std::vector<EdgeUse> uses;
   uses.reserve(3 * triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -23,16 +13,14 @@ std::vector<Use> sorted_uses(std::span<const TriangleMesh::Corners> triangles) {
       uses.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(t), a < b});
     }
   }
-  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
+  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
     return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
   });
   return uses;
 }
 
-}  // namespace
-
 std::optional<OpenEdges> find_open_edges(std::span<const TriangleMesh::Corners> triangles) {
-  const std::vector<Use> uses = sorted_uses(triangles);
+  const std::vector<EdgeUse> uses = sorted_edge_uses(triangles);
   OpenEdges open;
   for (std::size_t begin = 0, end; begin < uses.size(); begin = end) {
     end = begin;
@@ -45,7 +33,7 @@ std::optional<OpenEdges> find_open_edges(std::span<const TriangleMesh::Corners> 
     ++open.count;
     const bool more_rising = rising > falling;
     const auto first = std::find_if(uses.begin() + static_cast<std::ptrdiff_t>(begin), uses.end(),
-                                    [more_rising](const Use& use) { return use.rising == more_rising; });
+                                    [more_rising](const EdgeUse& use) { return use.rising == more_rising; });
     if (open.count > 1 && first->triangle >= open.triangle) continue;
     open.triangle = first->triangle;
     open.from = more_rising ? first->low : first->high;

@@ -3,10 +3,24 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "tenon/primitive/triangle_mesh.h"
 
 namespace tenon {
+
+/// An edge of a triangle.
+struct EdgeUse {
+  std::uint32_t low, high;  ///< vertices, in rising order
+  std::uint32_t triangle;
+  bool rising;  ///< the triangle runs along it from low to high
+
+  std::pair<std::uint32_t, std::uint32_t> ends() const { return {low, high}; }
+};
+
+/// The edges of all triangles, by their ends.
+std::vector<EdgeUse> sorted_edge_uses(std::span<const TriangleMesh::Corners> triangles);
 
 /// Edges that keep a mesh from being closed: those that triangles run along more often in one direction than in the
 /// other.

@@ -4,8 +4,10 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "mesh/load_mesh.h"
+#include "support/meshes.h"
 
 namespace tenon {
 namespace {
@@ -190,7 +192,7 @@ TEST_F(MeshFileTest, WhatIsCertainIsMended) {
 }
 
 TEST_F(MeshFileTest, AMeshThatPassesThroughItselfIsToldSo) {
-  // Two tetrahedra; the edge from 4 to 7 of the second passes through the face 1 2 3 of the first.
+  // Two tetrahedra; the corner 4 of the second has passed through the face 1 2 3 of the first.
   const std::string two =
       "OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0.2 0.2 0.2\n1.2 0.2 0.2\n0.2 1.2 0.2\n0.2 0.2 1.2\n"
       "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n3 4 6 5\n3 4 5 7\n3 4 7 6\n3 5 6 7\n";
@@ -198,8 +200,61 @@ TEST_F(MeshFileTest, AMeshThatPassesThroughItselfIsToldSo) {
   ASSERT_TRUE(loaded) << format_error(loaded.error());
   ASSERT_EQ(loaded->notes.size(), 1u);
   EXPECT_EQ(loaded->notes[0],
-            "the mesh passes through itself: 3 pairs of its triangles; first, triangles 3 and 4 near [0.2, 0.6, 0.2]; "
+            "the mesh passes through itself: 3 pairs of its triangles; first, triangles 3 and 4 near [0.4, 0.4, 0.2]; "
             "the solid is the union of its parts, what the mesh winds around at least once");
+}
+
+std::string off_of(const TriangleMesh& mesh) {
+  std::ostringstream off;
+  off << "OFF\n" << mesh.vertices.size() << ' ' << mesh.triangles.size() << " 0\n";
+  for (const Vec3& v : mesh.vertices) off << v.x << ' ' << v.y << ' ' << v.z << '\n';
+  for (const auto& [a, b, c] : mesh.triangles) off << "3 " << a << ' ' << b << ' ' << c << '\n';
+  return off.str();
+}
+
+// A part that faces the wrong way would vanish unsaid, for all its edges match.
+TEST_F(MeshFileTest, PartsThatAddNothingAreTold) {
+  const auto inside_out = [](TriangleMesh mesh) {
+    for (TriangleMesh::Corners& corners : mesh.triangles) std::swap(corners[1], corners[2]);
+    return mesh;
+  };
+  const auto notes = [&](const TriangleMesh& mesh) {
+    const auto loaded = load("a.off", off_of(mesh));
+    EXPECT_TRUE(loaded);
+    return loaded ? loaded->notes : std::vector<std::string>{};
+  };
+  using Notes = std::vector<std::string>;
+  const TriangleMesh box = meshes::box({0, 0, 0}, {4, 4, 4});
+  const TriangleMesh within = meshes::box({1, 1, 1}, {2, 2, 2}), beside = meshes::box({5, 1, 1}, {6, 2, 2});
+  EXPECT_EQ(notes(meshes::together(box, beside)), Notes{});
+  EXPECT_EQ(notes(meshes::together(box, inside_out(within))), Notes{});
+  EXPECT_EQ(
+      notes(meshes::together(box, within)),
+      Notes{"of the 2 parts of the mesh 1 is within another, and faces outward, so that it adds nothing: turn its "
+            "faces if it is meant as a hollow; first, the part of triangle 12 at [1, 1, 1]"});
+  EXPECT_EQ(notes(meshes::together(meshes::together(box, inside_out(beside)), inside_out(within))),
+            Notes{"of the 3 parts of the mesh 1 is inside out, with no solid around; nothing is left of it: turn its "
+                  "faces; first, the part of triangle 12 at [5, 1, 1]"});
+  // The part that is larger decides which way is outward.
+  EXPECT_EQ(notes(meshes::together(beside, inside_out(box))),
+            Notes{"of the 2 parts of the mesh 1 is inside out, with no solid around; nothing is left of it: turn its "
+                  "faces; first, the part of triangle 0 at [5, 1, 1]"});
+  // A hollow that touches the face above it, a solid in a hollow, and one beside a face.
+  EXPECT_EQ(notes(meshes::together(box, inside_out(meshes::box({1, 1, 2}, {2, 2, 4})))), Notes{});
+  EXPECT_EQ(notes(meshes::together(meshes::together(box, inside_out(meshes::box({1, 1, 1}, {3, 3, 3}))), within)),
+            Notes{});
+  EXPECT_EQ(notes(meshes::together(box, meshes::box({4, 1, 1}, {5, 2, 2}))), Notes{});
+}
+
+// Boxes whose faces and edges coincide where they overlap.
+TEST_F(MeshFileTest, BoxesThatOverlapByHalfOfOneAreTold) {
+  const TriangleMesh box = meshes::box({0, 0, 0}, {1, 1, 1});
+  for (const Vec3& shift : {Vec3{0.5, 0, 0}, Vec3{0.5, 0.5, 0}, Vec3{0.5, 0.5, 0.5}, Vec3{0, 0, -0.5}}) {
+    const auto loaded = load("a.off", off_of(meshes::together(box, meshes::scaled(box, {1, 1, 1}, shift))));
+    ASSERT_TRUE(loaded);
+    ASSERT_EQ(loaded->notes.size(), 1u);
+    EXPECT_EQ(loaded->notes[0].find("the mesh passes through itself: "), 0u);
+  }
 }
 
 }  // namespace
