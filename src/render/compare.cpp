@@ -110,7 +110,7 @@ bool same_hit(const Hit& a, const Hit& b) {
   for (std::size_t i = 0; i < a.faces.size(); ++i) {
     if (a.faces[i] != b.faces[i]) return false;
   }
-  return a.t == b.t && a.bound == b.bound && a.point == b.point && a.normal == b.normal && a.surface == b.surface &&
+  return a.t == b.t && a.point == b.point && a.normal == b.normal && a.surface == b.surface &&
          a.material == b.material && a.entering == b.entering && a.is_surface == b.is_surface && a.before == b.before &&
          a.after == b.after;
 }

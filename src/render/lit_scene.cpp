@@ -104,7 +104,7 @@ Rgb LitScene::color(const Hit& hit) const {
   if (material.texture.kind == TextureKind::none) return material.color;
   // What lies under the face, further than the error of its place: a face that coincides with one of the pattern is of
   // one colour.
-  const double share = second_share(material.texture, hit.point - (2 * hit.bound) * hit.normal);
+  const double share = second_share(material.texture, hit.point - margin_ * hit.normal);
   return (1 - share) * material.color + share * material.second;
 }
 

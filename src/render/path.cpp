@@ -64,7 +64,7 @@ void PathIntegrator::radiance(std::span<const RayQuery> primary, std::span<const
 // What comes from where the ray ends by itself. @return whether there is a surface for more to come from
 bool PathIntegrator::meet(Path& path, const RayQuery& query, const Hit& hit, Rgb& light) const {
   const Vec3& d = query.ray.direction;
-  const auto lamp = scene_.first_light(query.ray, hit.t + hit.bound);
+  const auto lamp = scene_.first_light(query.ray, hit.t);
   const MediumId medium = hit.found() ? hit.before : medium_outside;
   if (medium > medium_opaque)
     path.throughput = path.throughput * scene_.attenuation(medium, lamp ? lamp->second.t : hit.t);

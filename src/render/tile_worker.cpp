@@ -85,8 +85,11 @@ void TileWorker::aim(const PixelWindow& tile, std::uint32_t index) {
 
 void TileWorker::add(std::size_t i, Film& film) {
   const RayQuery& query = queries_[i];
-  FilmSample sample;
+  // What it says of the layers is cleared where there are any alone.
+  FilmSample& sample = sample_;
+  if (features_ != nullptr || wants_spans_) sample = FilmSample{};
   sample.index = ids_[i].index;
+  sample.alpha = 1;
   sample.light = hatch_ != nullptr ? hatch_->light(hits_[i], places_[i]) * light_[i] : light_[i];
   if (transparent_ && !hits_[i].found()) {
     sample.light = {};

@@ -50,6 +50,7 @@ class TileWorker {
   std::vector<Hit> hits_;
   std::vector<Rgb> light_;
   std::vector<SolidSpan> spans_;
+  FilmSample sample_;
 };
 
 }  // namespace tenon

@@ -8,6 +8,22 @@
 
 namespace tenon {
 
+namespace {
+
+// x^n for x >= 0 and n > 0; by multiplication, which takes a third of the time, where n is a whole number.
+double power(double x, double n) {
+  constexpr double most = 1 << 16;
+  if (!(n <= most) || n != static_cast<double>(static_cast<int>(n))) return std::pow(x, n);
+  double product = 1;
+  for (int left = static_cast<int>(n); left != 0; left >>= 1) {
+    if ((left & 1) != 0) product *= x;
+    x *= x;
+  }
+  return product;
+}
+
+}  // namespace
+
 void WhittedIntegrator::radiance(std::span<const RayQuery> primary, std::span<const Hit> hits,
                                  std::span<const SampleId>, std::span<Rgb> light, TraceContext& context) {
   std::fill(light.begin(), light.end(), Rgb{});
@@ -35,7 +51,7 @@ void WhittedIntegrator::shade(std::span<const RayQuery> rays, std::span<const Hi
     const Ray& ray = rays[i].ray;
     const Hit& hit = hits[i];
     Node& node = nodes_[i];
-    const auto lamp = scene_.first_light(ray, hit.t + hit.bound);
+    const auto lamp = scene_.first_light(ray, hit.t);
     const MediumId medium = hit.found() ? hit.before : medium_outside;
     node.weight = node.weight * scene_.attenuation(medium, lamp ? lamp->second.t : hit.t);
     if (lamp) {
@@ -65,14 +81,20 @@ void WhittedIntegrator::connect(std::span<const RayQuery> rays, std::span<const 
       const Vec3 to_light = normalize(incident.to_light);
       const double cos = dot(nodes_[i].normal, to_light);
       if (!(cos > 0)) continue;
-      const Ray ray{hits[i].point, incident.to_light};
-      if (scene_.is_blocked_by_light(ray, incident.t_max, &light)) continue;
+      if (scene_.is_blocked_by_light({hits[i].point, incident.to_light}, incident.t_max, &light)) continue;
+      // Part by part, where they stay: a copy of what was just put together waits for all of its parts.
       RayQuery& query = shadow_queries_.emplace_back();
-      query.ray = ray;
+      query.ray.origin = hits[i].point;
+      query.ray.direction = incident.to_light;
       query.t_max = incident.t_max;
       query.kind = RayKind::shadow;
       query.from = &hits[i];
-      shadow_rays_.push_back({i, &light, to_light, cos, incident.light});
+      ShadowRay& ray = shadow_rays_.emplace_back();
+      ray.node = i;
+      ray.light = &light;
+      ray.to_light = to_light;
+      ray.cos = cos;
+      ray.incident = incident.light;
     }
   }
   find_shares(hits, context);
@@ -83,8 +105,9 @@ void WhittedIntegrator::connect(std::span<const RayQuery> rays, std::span<const 
     const Reflectance& surface = scene_.reflectance(hits[ray.node].material);
     Rgb factor = ray.cos * node.diffuse;
     if (surface.specular > 0) {
-      const Vec3 half = normalize(ray.to_light - rays[ray.node].ray.direction);
-      const double highlight = surface.specular * std::pow(std::max(0.0, dot(node.normal, half)), surface.shininess);
+      const Vec3 half = ray.to_light - rays[ray.node].ray.direction;
+      const double cos = dot(node.normal, half) / length(half);
+      const double highlight = surface.specular * power(std::max(0.0, cos), surface.shininess);
       factor += Rgb{highlight, highlight, highlight};
     }
     node.local += shares_[k] * (ray.incident * factor);

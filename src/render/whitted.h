@@ -56,10 +56,10 @@ class WhittedIntegrator final : public Integrator {
     Rgb local;    // what surface and lights send back along it
   };
   struct ShadowRay {
-    std::uint32_t node;
-    const LitLight* light;
-    Vec3 to_light;  // length 1
-    double cos;     // to the normal
+    std::uint32_t node = 0;
+    const LitLight* light = nullptr;
+    Vec3 to_light;   // length 1
+    double cos = 0;  // to the normal
     Rgb incident;
   };
 

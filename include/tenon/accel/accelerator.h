@@ -70,7 +70,8 @@ using StopsRay = FunctionRef<bool(const Hit&)>;
 /// A spatial structure over the primitives of a CSG tree: it decides in which order they are revealed to a ray, and so
 /// when the ray may stop. Immutable once built and shared by threads, each with its own context.
 ///
-/// Every structure gives the same answers, bit for bit, as `none`.
+/// Every structure gives the same answers, bit for bit, as `none`; but of the error of t (Hit::bound) each tells the
+/// bound that it knows.
 class Accelerator {
  public:
   virtual ~Accelerator() = default;

@@ -29,7 +29,7 @@ struct LeafFace {
 /// The boundary of the solid met by a ray.
 struct Hit {
   double t = std::numeric_limits<double>::infinity();
-  double bound = 0;                  ///< error bound on t
+  double bound = 0;                  ///< on the error of t: of the same t, structures may know different ones
   Vec3 point;                        ///< ray.at(t)
   Vec3 normal;                       ///< length 1, pointing out of the solid; of a surface: its own
   LeafFace surface;                  ///< the primitive that shows, and its face

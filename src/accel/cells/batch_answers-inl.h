@@ -53,7 +53,7 @@ class BatchAnswers {
 
   void Write(std::span<CellAnswer> answers, SingleTracer& single, TraversalStatistics& statistics) const {
     std::uint64_t finished = 0;
-    if (single.wanted() == Wanted::boundary) finished = FinishTogether(answers);
+    if (single.wanted() != Wanted::occlusion) finished = FinishTogether(answers);
     for (std::size_t i = 0; i < rays_.count; ++i) {
       if ((finished >> i & 1) == 0) Answer(i, answers[i], single, statistics);
     }

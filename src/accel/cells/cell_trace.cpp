@@ -21,7 +21,9 @@ namespace HWY_NAMESPACE {
 void TraceOneByOne(SingleTracer& single, std::span<const RayQuery> queries, std::span<CellAnswer> answers,
                    TraversalStatistics& statistics) {
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    single.Trace(queries[i], answers[i], statistics[queries[i].kind]);
+    TraversalCounters& counters = statistics[queries[i].kind];
+    ++counters.rays;
+    single.Trace(queries[i], answers[i], counters);
   }
 }
 
@@ -41,6 +43,7 @@ HWY_NOINLINE void TraceInBatches(const CellTree& cells, double tolerance, Single
   for (std::size_t begin = 0; begin < queries.size(); begin += RayBatch::most_rays) {
     const std::size_t count = std::min(RayBatch::most_rays, queries.size() - begin);
     rays.Begin(cells, queries.subspan(begin, count));
+    for (const RayQuery& query : rays.queries) ++statistics[query.kind].rays;
     found.Clear(rays);
     const bool is_block = count >= least_batch && block.Begin();
     const std::uint64_t left = is_block ? block.Trace(any_will_do, statistics[queries[begin].kind]) : rays.in_scene();

@@ -16,7 +16,7 @@ namespace tenon::cells {
 enum class Wanted : std::uint8_t {
   occlusion,  ///< whether there is a boundary
   boundary,   ///< the first, with the t, leaf and face of spans()
-  hit,        ///< the first, t being near to that of spans(), with all its faces where several coincide
+  hit,        ///< the same, with all its faces where several coincide
 };
 
 /// What a ray met among the cells.

@@ -56,10 +56,13 @@ class Cells final : public Accelerator {
     trace(queries, context.answers, Wanted::boundary, context);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const CellAnswer& answer = context.answers[i];
-      boundaries[i] = RayBoundary{};
-      if (answer.kind == CellAnswer::Kind::boundary) {
-        boundaries[i] = {answer.t, answer.surface, !answer.before};
-      } else if (answer.kind == CellAnswer::Kind::unsure) {
+      // Part by part: a whole one, put together elsewhere and copied, waits for each of its parts to be written.
+      RayBoundary& boundary = boundaries[i];
+      const bool is_known = answer.kind == CellAnswer::Kind::boundary;
+      boundary.t = is_known ? answer.t : std::numeric_limits<double>::infinity();
+      boundary.surface = is_known ? answer.surface : LeafFace{};
+      boundary.entering = is_known && !answer.before;
+      if (answer.kind == CellAnswer::Kind::unsure) {
         exact(context, [&](const Accelerator& exact, TraceContext& exact_context) {
           exact.first_boundaries(queries.subspan(i, 1), boundaries.subspan(i, 1), exact_context);
         });
@@ -121,13 +124,12 @@ class Cells final : public Accelerator {
   struct Context final : TraceContext {
     cells::CellScratch scratch;
     std::vector<CellAnswer> answers;
-    Spans spans;
     std::unique_ptr<TraceContext> exact;
   };
 
   void trace(std::span<const RayQuery> queries, std::span<CellAnswer> answers, Wanted wanted, Context& context) const {
-    for (const RayQuery& query : queries) ++context.statistics[query.kind].rays;
     if (cells_.empty()) {
+      for (const RayQuery& query : queries) ++context.statistics[query.kind].rays;
       std::fill(answers.begin(), answers.end(), CellAnswer{});
       return;
     }
@@ -149,28 +151,16 @@ class Cells final : public Accelerator {
       hit = make_hit(tree_, query.ray, run);
       return true;
     }
-    const int on_face = cells::start_face(query, answer.surface.leaf);
-    context.spans.clear();
-    spans(tree_.primitives, leaf.primitive, leaf.placement, query.ray, tree_.tolerance.distance, on_face,
-          context.spans);
-    const double speed = length(query.ray.direction);
-    for (const Crossing& crossing : context.spans) {
-      if (crossing.entering != answer.leaf_entering) continue;
-      if (!(std::fabs(crossing.t - answer.t) * speed <= 2 * cells_.scale.resolution)) continue;
-      assert(crossing.bound * speed <= cells_.scale.resolution);
-      hit.t = crossing.t;
-      hit.bound = crossing.bound;
-      hit.surface = {answer.surface.leaf, crossing.face};
-      hit.is_surface = false;
-      hit.before = answer.before ? medium_opaque : medium_outside;
-      hit.after = answer.before ? medium_outside : medium_opaque;
-      hit.faces.clear();
-      hit.faces.push_back(hit.surface);
-      describe_hit(tree_, query.ray, crossing.entering, owner, hit);
-      return true;
-    }
-    ++context.statistics.seam_faults;
-    return false;
+    hit.t = answer.t;
+    hit.bound = cells_.scale.resolution / length(query.ray.direction);
+    hit.surface = answer.surface;
+    hit.is_surface = false;
+    hit.before = answer.before ? medium_opaque : medium_outside;
+    hit.after = answer.before ? medium_outside : medium_opaque;
+    hit.faces.clear();
+    hit.faces.push_back(hit.surface);
+    describe_hit(tree_, query.ray, answer.leaf_entering, owner, hit);
+    return true;
   }
 
   template <class Ask>

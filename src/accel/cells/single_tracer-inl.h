@@ -51,15 +51,12 @@ class SingleTracer {
   void Finish(CellAnswer& answer) {
     answer.kind = CellAnswer::Kind::boundary;
     const bool at_end = std::fabs(answer.t - query_->t_max) <= 2 * near_;
-    if (wanted_ == Wanted::boundary || (wanted_ == Wanted::occlusion && at_end)) {
+    if (wanted_ != Wanted::occlusion || at_end) {
       NeedExact();
       if (!exact_.Finish(answer)) {
         answer.kind = CellAnswer::Kind::unsure;
         return;
       }
-    } else if (at_end) {
-      answer.kind = CellAnswer::Kind::unsure;
-      return;
     }
     if (!(answer.t < query_->t_max)) answer.kind = CellAnswer::Kind::nothing;
   }
