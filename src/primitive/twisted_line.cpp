@@ -1,6 +1,10 @@
 #include "primitive/twisted_line.h"
 
 #include <cmath>
+#include <optional>
+#include <type_traits>
+
+#include "tenon/math/box3.h"
 
 namespace tenon {
 
@@ -12,6 +16,12 @@ constexpr int deepest = 60;
 constexpr int most_looks = 512;
 
 }  // namespace
+
+TwistedLine::TwistedLine(const TwistedSweep& sweep, const LocalRay& ray, int on_edge)
+    : sweep_(sweep),
+      ray_(ray),
+      on_edge_(on_edge),
+      turn_per_t_(half_pi * sweep.quarter_turns * sweep.per_height * ray.direction.z) {}
 
 // Where the line is within a time; the product and the sum round.
 Ball TwistedLine::coordinate(int axis, double t, double half_width) const {
@@ -82,8 +92,17 @@ Ball TwistedLine::edge_at(const OutlineEdge& edge, double t) const {
 }
 
 void TwistedLine::cross_edges(const OutlineEdges& edges, double begin, double end, std::vector<EdgeCrossing>& out) {
-  const double turn = std::fabs(sweep_.quarter_turns * sweep_.per_height * ray_.direction.z * (end - begin));
-  search(edges, {begin, end}, turn, out);
+  Interval parts[2];
+  const int count = parts_beside_walls({begin, end}, parts);
+  const bool is_scaled = sweep_.growth_x != 0 || sweep_.growth_y != 0;
+  for (int i = 0; i < count; ++i) {
+    const double turn = std::fabs(turn_per_t_) * (parts[i].end - parts[i].begin) / half_pi;
+    if (is_scaled) {
+      search<EnclosedWay>(edges, parts[i], turn, out);
+    } else {
+      search<StraightWay>(edges, parts[i], turn, out);
+    }
+  }
   // The face the ray starts on is crossed there even where rounding has put the edge aside.
   if (on_edge_ < 0 || !(begin <= 0 && 0 <= end)) return;
   const auto index = static_cast<std::uint32_t>(on_edge_);
@@ -93,51 +112,123 @@ void TwistedLine::cross_edges(const OutlineEdges& edges, double begin, double en
   out.push_back({{0, 0, 0}, index, rising, true, true});
 }
 
-// By the distance from the axis alone.
-bool TwistedLine::may_meet_walls(const Interval& interval) const {
+// Where the line is no farther from the axis than a wall reaches, and no nearer than one comes: a part, or two with the
+// axis between them.
+int TwistedLine::parts_beside_walls(const Interval& whole, Interval (&parts)[2]) const {
   const Vec2 o{ray_.origin.x, ray_.origin.y}, d{ray_.direction.x, ray_.direction.y};
-  const double dd = dot(d, d);
-  const double nearest = dd > 0 ? std::clamp(-dot(o, d) / dd, interval.begin, interval.end) : interval.begin;
-  const double t = std::max(std::fabs(interval.begin), std::fabs(interval.end));
-  const double error =
-      length(ray_.origin_error) + t * length(ray_.direction_error) + gamma(8) * (length(o) + t * length(d));
-  // Where the foot is off by its rounding, the distance changes by less than that times the speed.
-  if (length(o + nearest * d) - 2 * error > sweep_.reach) return false;
-  return std::max(length(o + interval.begin * d), length(o + interval.end * d)) + error >= sweep_.clearance;
+  const double dd = dot(d, d), t = std::max(std::fabs(whole.begin), std::fabs(whole.end));
+  // Of the distance from the axis, and once more for the foot: where that is off by its rounding, the distance changes
+  // by less than that times the speed.
+  const double error = 2 * (length(ray_.origin_error) + t * length(ray_.direction_error) +
+                            gamma(8) * (length(o) + t * length(d) + sweep_.reach));
+  const double foot = dd > 0 ? -dot(o, d) / dd : 0;
+  const double nearest = length(o + foot * d);
+  const double far = sweep_.reach + error, near = sweep_.clearance - error;
+  if (nearest > far) return 0;
+  // Squares differ by their roundings, which `error` covers as well.
+  const auto half_chord = [&](double radius) { return std::sqrt((radius * radius - nearest * nearest) / dd); };
+  const auto rounding = [&](double half) { return gamma(8) * (std::fabs(foot) + half); };
+  double half = dd > 0 ? half_chord(far) : Box3::inf;
+  half += rounding(half);
+  const Interval within{std::max(whole.begin, foot - half), std::min(whole.end, foot + half)};
+  if (!(within.begin <= within.end)) return 0;
+  if (!(nearest < near)) {
+    parts[0] = within;
+    return 1;
+  }
+  half = dd > 0 ? half_chord(near) : Box3::inf;
+  half -= rounding(half);
+  int count = 0;
+  for (const Interval& part : {Interval{within.begin, std::min(within.end, foot - half)},
+                               Interval{std::max(within.begin, foot + half), within.end}}) {
+    if (part.begin <= part.end) parts[count++] = part;
+  }
+  return count;
 }
 
-// Over `turn` quarter turns at most. Over an eighth of a turn the motion is still much like a straight one; less of it
-// is looked at together where no more than a few edges can be near.
+// By Taylor's theorem. With the speed w and the angular speed a in a plane that turns, the acceleration is 2 a w across
+// the way and a² r to the axis.
+TwistedLine::StraightWay TwistedLine::straight_way(const Interval& interval) const {
+  const double t = interval.middle(), half = interval.half_width(), a = turn_per_t_;
+  const Vec3 p = ray_.origin + t * ray_.direction;
+  const Vec2 d{ray_.direction.x, ray_.direction.y};
+  const Vec3 error = ray_.origin_error + (std::fabs(t) + half) * ray_.direction_error +
+                     gamma(4) * (abs(ray_.origin) + std::fabs(t) * abs(ray_.direction));
+  const double turn_per_height = sweep_.quarter_turns * sweep_.per_height;
+  const double turn = turn_per_height * (p.z - sweep_.low);
+  const auto [sine, cosine] = quarter_turn_sine_cosine(turn);
+  const Vec2 place{cosine * p.x - sine * p.y, sine * p.x + cosine * p.y};
+  const Vec2 speed{cosine * d.x - sine * d.y - a * place.y, sine * d.x + cosine * d.y + a * place.x};
+  const double moving = length(d), far = length(place) + moving * half;
+  const double bend = 0.5 * half * half * std::fabs(a) * (2 * moving + std::fabs(a) * far);
+  // What the turn is wrong by moves all there is; and all of it rounds.
+  const double turn_error = half_pi * (std::fabs(turn_per_height) * (error.z + gamma(2) * std::fabs(sweep_.low)) +
+                                       gamma(4) * std::fabs(turn)) +
+                            sine_cosine_error;
+  const double slack =
+      length(Vec2{error.x, error.y}) + (turn_error + gamma(16)) * (far + sweep_.reach) * (1 + std::fabs(a) * half);
+  return {place, half * speed, (bend + slack) * (1 + gamma(8))};
+}
+
+bool TwistedLine::StraightWay::may_touch(const Vec2& lower, const Vec2& upper) const {
+  const double x = std::fabs(way.x) + spread, y = std::fabs(way.y) + spread;
+  return place.x - x <= upper.x && lower.x <= place.x + x && place.y - y <= upper.y && lower.y <= place.y + y;
+}
+
+// q(p + v) = q(p) + grad q(p)·v + bulge v².
+bool TwistedLine::StraightWay::may_cross(const OutlineEdge& edge) const {
+  const Vec2 p = place - edge.from, normal = edge.normal(p);
+  const double moved = length(way) + spread, from = length(p), chord = length(edge.chord());
+  const double change = std::fabs(dot(normal, way)) + length(normal) * spread + std::fabs(edge.bulge) * moved * moved;
+  // Of q, of its gradient and of the terms above; that of p and the chord is part of the spread.
+  const double rounding =
+      gamma(16) * (from * (std::fabs(edge.bulge) * (from + chord) + std::fabs(edge.flatness()) * chord) +
+                   edge.steepness(from) * moved + change);
+  return std::fabs(edge.value(p)) <= change + rounding;
+}
+
+// A box of the plane, as large as the scales make it.
+bool TwistedLine::EnclosedWay::may_touch(const Vec2& lower, const Vec2& upper) const {
+  const double least = motion.s.range.least(), most = motion.s.range.greatest();
+  const auto may_be_over = [&](const Ball& u, double low, double high) {
+    return u.greatest() >= std::min(low * least, low * most) && u.least() <= std::max(high * least, high * most);
+  };
+  return may_be_over(motion.ux.range, lower.x, upper.x) && may_be_over(motion.uy.range, lower.y, upper.y);
+}
+
+// Over `turn` quarter turns at most. Parts over which the motion is not yet much like a straight one, or over which it
+// may cross edges, are halved until only the edges themselves can tell.
+template <class Way>
 void TwistedLine::search(const OutlineEdges& edges, const Interval& interval, double turn,
                          std::vector<EdgeCrossing>& out) {
-  constexpr double widest = 0.5, narrowest = 0.125;
-  if (!may_meet_walls(interval)) return;
+  constexpr double widest = 0.5, narrowest = 0.0625;
   if (turn <= widest) {
-    const Motion<Enclosure> m = move_over(interval);
-    const auto may_be_over = [&](const Ball& u, double lower, double upper) {
-      const double a = m.s.range.least(), b = m.s.range.greatest();
-      return u.greatest() >= std::min(lower * a, lower * b) && u.least() <= std::max(upper * a, upper * b);
-    };
-    const auto touches = [&](const Vec2& lower, const Vec2& upper) {
-      return may_be_over(m.ux.range, lower.x, upper.x) && may_be_over(m.uy.range, lower.y, upper.y);
-    };
-    if (turn <= narrowest) {
-      const EnclosureArithmetic with(interval.half_width());
-      edges.visit_edges(touches, [&](std::uint32_t index) {
-        looks_ = most_looks;
-        const OutlineEdge& edge = edges.edges()[index];
-        cross_edge(index, edge, interval, edge_function(with, edge, m), 0, out);
-        return true;
-      });
-      return;
+    std::optional<Motion<Enclosure>> motion;
+    Way way;
+    if constexpr (std::is_same_v<Way, EnclosedWay>) {
+      way.motion = motion.emplace(move_over(interval));
+    } else {
+      way = straight_way(interval);
     }
-    if (edges.visit_edges(touches, [](std::uint32_t) { return false; })) return;
+    const bool is_last = turn <= narrowest;
+    const EnclosureArithmetic with(interval.half_width());
+    const auto touches = [&way](const Vec2& lower, const Vec2& upper) { return way.may_touch(lower, upper); };
+    const bool none_left = edges.visit_edges(touches, [&](std::uint32_t index) {
+      const OutlineEdge& edge = edges.edges()[index];
+      if (!way.may_cross(edge)) return true;
+      if (!is_last) return false;
+      if (!motion) motion = move_over(interval);
+      looks_ = most_looks;
+      cross_edge(index, edge, interval, edge_function(with, edge, *motion), 0, out);
+      return true;
+    });
+    if (none_left) return;
   }
   // The start of a ray lies within one of the parts, not between two.
   double middle = interval.middle();
   if (middle == 0 && on_edge_ >= 0) middle = 0.5 * interval.begin;
-  search(edges, {interval.begin, middle}, 0.5 * turn, out);
-  search(edges, {middle, interval.end}, 0.5 * turn, out);
+  search<Way>(edges, {interval.begin, middle}, 0.5 * turn, out);
+  search<Way>(edges, {middle, interval.end}, 0.5 * turn, out);
 }
 
 void TwistedLine::cross_edge(std::uint32_t index, const OutlineEdge& edge, const Interval& interval, const Enclosure& f,

@@ -27,8 +27,7 @@ struct TwistedSweep {
 /// is reported as a crossing in doubt.
 class TwistedLine {
  public:
-  TwistedLine(const TwistedSweep& sweep, const LocalRay& ray, int on_edge)
-      : sweep_(sweep), ray_(ray), on_edge_(on_edge) {}
+  TwistedLine(const TwistedSweep& sweep, const LocalRay& ray, int on_edge);
 
   /// Finds the crossings with all edges between two t.
   void cross_edges(const OutlineEdges& edges, double begin, double end, std::vector<EdgeCrossing>& out);
@@ -58,7 +57,26 @@ class TwistedLine {
   Enclosure edge_over(const OutlineEdge& edge, const Interval& interval) const;
   Ball edge_at(const OutlineEdge& edge, double t) const;
 
-  bool may_meet_walls(const Interval& interval) const;
+  /// The way of the line in the plane of the outline over an interval, in a sweep that does not scale: place + s way
+  /// for s from -1 to 1, and no farther from that than `spread`.
+  struct StraightWay {
+    Vec2 place, way;
+    double spread = 0;
+
+    bool may_touch(const Vec2& lower, const Vec2& upper) const;
+    bool may_cross(const OutlineEdge& edge) const;
+  };
+  /// The same for any sweep, by boxes alone.
+  struct EnclosedWay {
+    Motion<Enclosure> motion;
+
+    bool may_touch(const Vec2& lower, const Vec2& upper) const;
+    static bool may_cross(const OutlineEdge&) { return true; }
+  };
+
+  int parts_beside_walls(const Interval& whole, Interval (&parts)[2]) const;
+  StraightWay straight_way(const Interval& interval) const;
+  template <class Way>
   void search(const OutlineEdges& edges, const Interval& interval, double turn, std::vector<EdgeCrossing>& out);
   bool is_in_doubt(const OutlineEdge& edge, const Interval& interval, const Enclosure& f) const;
   void cross_edge(std::uint32_t index, const OutlineEdge& edge, const Interval& interval, const Enclosure& f, int depth,
@@ -73,6 +91,7 @@ class TwistedLine {
   TwistedSweep sweep_;
   LocalRay ray_;
   int on_edge_;
+  double turn_per_t_;  // of the plane of the outline, in radians
   int looks_ = 0;
 };
 

@@ -71,6 +71,28 @@ TEST(LinearExtrude, TwistedMovesTheOutlinesThatTurn) {
             std::string::npos);
 }
 
+TEST(LinearExtrude, TwistsOperationsOnSegmentsAsOneOutline) {
+  const auto count = [](const std::string& text, const std::string& word) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
+    return found;
+  };
+  const std::string one = tree_of(
+      "linear_extrude(10, twist = 90) { square(2); translate([1, 0]) square(2); translate([8, 8]) square(1); }");
+  EXPECT_EQ(count(one, "twisted_prism"), 1u) << one;
+  EXPECT_NE(one.find("[[9, 9], [8, 9], [8, 8], [9, 8]], [[0, 0], [3, 0], [3, 2], [0, 2]]"), std::string::npos) << one;
+  // Arcs stay exact, and what has a colour keeps it.
+  EXPECT_EQ(
+      count(
+          tree_of("linear_extrude(10, twist = 90) difference() { circle(3); union() { square(4); square(5, true); } }"),
+          "twisted_prism"),
+      2u);
+  EXPECT_EQ(count(tree_of("linear_extrude(10, twist = 90) { square(2); color(\"red\") square(3); }"), "twisted_prism"),
+            2u);
+  EXPECT_EQ(tree_of("linear_extrude(10, twist = 90) difference() { square(2); square(3); }").find("twisted_prism"),
+            std::string::npos);
+}
+
 TEST(LinearExtrude, SaysWhatItCannotDo) {
   EXPECT_NE(message_of("linear_extrude(10, twist = 1e6) square();").find("twists end at 360000 degrees"),
             std::string::npos);
