@@ -190,18 +190,25 @@ TEST(Cells, StreamsSayWhatSingleRaysSay) {
 }
 
 // The kernels are compiled for several sets of instructions; here each that this machine has is chosen once.
-TEST(Cells, EveryInstructionSetSaysTheSame) {
-  const CsgTree tree = gallery::random_scene(8, 24, 1.5);
+template <class Body>
+void for_each_instruction_set(const Body& body) {
   for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
     const std::int64_t target = left & -left;
     SCOPED_TRACE(hwy::TargetName(target));
     hwy::SetSupportedTargetsForTest(target);
     hwy::GetChosenTarget().DeInit();
-    expect_streams_say_what_single_rays_say(tree, 1000);
-    expect_same_answers(tree, "cells", 20);
+    body();
   }
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().DeInit();
+}
+
+TEST(Cells, EveryInstructionSetSaysTheSame) {
+  const CsgTree tree = gallery::random_scene(8, 24, 1.5);
+  for_each_instruction_set([&] {
+    expect_streams_say_what_single_rays_say(tree, 1000);
+    expect_same_answers(tree, "cells", 20);
+  });
 }
 
 // Rays that go the same way from places far apart: a block of them would open all that lies between, and is given up.
@@ -248,19 +255,23 @@ TEST(Cells, QualityIsWorkInTheSubdivision) {
   EXPECT_LT(1.5 * counts[1], counts[2]);
 }
 
-// The tree is the same for any number of threads.
-TEST(Cells, AreBuiltAlikeByAnyNumberOfThreads) {
-  const CsgTree tree = gallery::random_scene(6, 400, 6);
+// The tree is the same for any number of threads, and any set of instructions.
+TEST(Cells, AreBuiltAlikeByEverybody) {
+  const CsgTree tree = gallery::random_scene(6, 300, 6);
   const Box3 box = battery::extent(tree);
-  const CellTree one = CellTree::build(tree, box, {}, 1), four = CellTree::build(tree, box, {}, 4);
+  const CellTree one = CellTree::build(tree, box, {}, 1);
   ASSERT_GT(one.cells.size(), 100u);
-  ASSERT_EQ(one.cells.size(), four.cells.size());
-  ASSERT_EQ(one.nodes.size(), four.nodes.size());
-  for (std::size_t i = 0; i < one.cells.size(); ++i) {
-    EXPECT_EQ(one.cells[i].table, four.cells[i].table);
-    EXPECT_EQ(one.cells[i].leaves, four.cells[i].leaves);
-  }
-  for (std::size_t i = 0; i < one.nodes.size(); ++i) EXPECT_EQ(one.nodes[i].ends, four.nodes[i].ends);
+  const auto expect_the_same = [&](const CellTree& other) {
+    ASSERT_EQ(one.cells.size(), other.cells.size());
+    ASSERT_EQ(one.nodes.size(), other.nodes.size());
+    for (std::size_t i = 0; i < one.cells.size(); ++i) {
+      ASSERT_EQ(one.cells[i].table, other.cells[i].table);
+      ASSERT_EQ(one.cells[i].leaves, other.cells[i].leaves);
+    }
+    for (std::size_t i = 0; i < one.nodes.size(); ++i) ASSERT_EQ(one.nodes[i].ends, other.nodes[i].ends);
+  };
+  expect_the_same(CellTree::build(tree, box, {}, 4));
+  for_each_instruction_set([&] { expect_the_same(CellTree::build(tree, box, {}, 1)); });
 }
 
 // What is left of an expression says the same as the whole wherever the constant leaves are as assumed.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "accel/cells/cell.h"
 #include "accel/cells/leaf_records.h"
 
 namespace tenon::cells {
@@ -14,6 +15,11 @@ struct CellCost {
   static constexpr double spans_factor = 4;
   /// A cell without a table is followed by the classifier, leaf by leaf.
   static constexpr double untabled_factor = 8;
+
+  /// @param leaves_cost  of all its leaves together
+  static double of_cell(double leaves_cost, std::size_t leaves) {
+    return (visit + leaves_cost) * (leaves <= Cell::most_tabled ? 1 : untabled_factor);
+  }
 
   /// @param spans_cost  of the primitive's spans() (dispatch.h), for leaves without a record
   static double of_leaf(RecordKind kind, double spans_cost) {

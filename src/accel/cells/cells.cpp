@@ -202,10 +202,10 @@ Result<std::unique_ptr<Accelerator>> build_cells(const BuildInput& input, Accele
   cells::BuildQuality quality;
   switch (options.take_word("quality", {"default", "fast", "high"})) {
     case 1:
-      quality = {0, 1.0 / 8, 1};
+      quality = {0, 1.0 / 4, 0};
       break;
     case 2:
-      quality = {5, 1.0 / 128, 3};
+      quality = {5, 1.0 / 32, 1};
       break;
     default:
       break;

@@ -11,25 +11,21 @@ namespace tenon::cells {
 
 namespace {
 
+// How far a map may be from one that keeps angles. No length is larger than four times the largest coordinate, so this
+// moves a surface by 2^-38 of that at most, which the margin covers.
+constexpr double similar = 0x1p-40;
+
 double square(double x) {
   return x * x;
 }
 
-// The scale of a map that only turns and scales alike, up to the given relative error; 0 for any other.
-double similarity_scale(const Affine3& map, double error) {
+// The scale of a map that only turns and scales alike; 0 for any other.
+double similarity_scale(const Affine3& map) {
   const double a = dot(map.row(0), map.row(0));
   const double off = std::max({std::fabs(dot(map.row(1), map.row(1)) - a), std::fabs(dot(map.row(2), map.row(2)) - a),
                                std::fabs(dot(map.row(0), map.row(1))), std::fabs(dot(map.row(1), map.row(2))),
                                std::fabs(dot(map.row(2), map.row(0)))});
-  return off <= error * a ? std::sqrt(a) : 0;
-}
-
-// Of the distance along one axis from a place to the nearest and the farthest point of an interval.
-double nearest_square(double at, double low, double high) {
-  return square(std::max({low - at, at - high, 0.0}));
-}
-double farthest_square(double at, double low, double high) {
-  return square(std::max(at - low, high - at));
+  return off <= similar * a ? std::sqrt(a) : 0;
 }
 
 bool maps_axes_to_axes(const Affine3& map) {
@@ -38,6 +34,41 @@ bool maps_axes_to_axes(const Affine3& map) {
     if ((row.x != 0) + (row.y != 0) + (row.z != 0) != 1) return false;
   }
   return true;
+}
+
+// The axis of the world that z goes to, when all across it stays across and is scaled alike.
+struct UprightMap {
+  int axis = -1;  // none
+  double scale = 0;
+};
+UprightMap upright(const Affine3& map) {
+  const Vec3 x = map.column(0), y = map.column(1), z = map.column(2);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::fabs(z[axis]) != length(z) || x[axis] != 0 || y[axis] != 0) continue;
+    const double a = dot(x, x);
+    if (std::max(std::fabs(dot(y, y) - a), std::fabs(dot(x, y))) <= similar * a) return {axis, std::sqrt(a)};
+  }
+  return {};
+}
+
+// Of the distance along one axis from a place to the nearest and the farthest point of an interval.
+double nearest_square(double at, double low, double high) {
+  return square(std::max(std::max(low - at, at - high), 0.0));
+}
+double farthest_square(double at, double low, double high) {
+  return square(std::max(at - low, high - at));
+}
+
+struct SquareRange {
+  double nearest = 0, farthest = 0;
+};
+SquareRange square_distances(const Vec3& from, const Box3& box) {
+  SquareRange squares;
+  for (int axis = 0; axis < 3; ++axis) {
+    squares.nearest += nearest_square(from[axis], box.lower[axis], box.upper[axis]);
+    squares.farthest += farthest_square(from[axis], box.lower[axis], box.upper[axis]);
+  }
+  return squares;
 }
 
 }  // namespace
@@ -49,33 +80,72 @@ LeafRegions::LeafRegions(const CsgTree& tree, const LeafRecords* records)
     RegionLeaf& region = leaves_[i];
     region.leaf = LeafId{i};
     region.bounds = leaf.bounds;
+    region.extent = max_component(leaf.bounds.size());
     if (records != nullptr) {
       const double price = CellCost::of_leaf(records->of_leaf[i].kind(), cost(tree.primitives, leaf.primitive));
       region.price = static_cast<float>(price);
     }
-    const Affine3& map = leaf.placement.world_from_local();
-    visit(tree.primitives.lists(), leaf.primitive, [&]<class P>(const P& primitive) {
-      if constexpr (std::is_same_v<P, Sphere>) {
-        // No radius is larger than twice the largest coordinate, so this is another 2^-38 of it.
-        const double scale = similarity_scale(map, 0x1p-40);
-        if (scale == 0) return;
-        region.kind = RegionLeaf::Kind::ball;
-        region.center = map.translation();
-        region.inner_square = square(std::max(scale * primitive.r - margin_, 0.0));
-        region.outer_square = square(scale * primitive.r + margin_);
-      } else if constexpr (std::is_same_v<P, Box>) {
-        if (maps_axes_to_axes(map)) region.kind = RegionLeaf::Kind::upright_box;
-      }
-    });
+    add_shape(leaf, region);
   }
+}
+
+void LeafRegions::add_shape(const Leaf& leaf, RegionLeaf& region) {
+  const Affine3& map = leaf.placement.world_from_local();
+  const auto set_radius = [&](double radius) {
+    region.center = map.translation();
+    region.inner_square = square(std::max(radius - margin_, 0.0));
+    region.outer_square = square(radius + margin_);
+  };
+  visit(tree_.primitives.lists(), leaf.primitive, [&]<class P>(const P& primitive) {
+    if constexpr (std::is_same_v<P, Sphere>) {
+      const double scale = similarity_scale(map);
+      if (scale == 0) return;
+      region.kind = RegionLeaf::Kind::plain;
+      region.round_axes = 7;
+      set_radius(scale * primitive.r);
+    } else if constexpr (std::is_same_v<P, Cylinder>) {
+      const UprightMap standing = upright(map);
+      if (standing.axis < 0) return;
+      region.kind = RegionLeaf::Kind::plain;
+      region.round_axes = static_cast<std::uint8_t>(7 & ~(1 << standing.axis));
+      set_radius(standing.scale * primitive.r);
+    } else if constexpr (std::is_same_v<P, Torus>) {
+      region.extent *= primitive.r / (primitive.R + primitive.r);
+      const double scale = similarity_scale(map);
+      if (scale == 0) return;
+      region.kind = RegionLeaf::Kind::ring;
+      set_radius(scale * primitive.r);
+      region.shape = static_cast<std::uint32_t>(rings_.size());
+      rings_.push_back({normalize(map.column(2)), scale * primitive.R, scale * primitive.r});
+    } else if constexpr (std::is_same_v<P, Box>) {
+      if (maps_axes_to_axes(map)) {
+        region.kind = RegionLeaf::Kind::plain;
+        region.inner_square = region.outer_square = Box3::inf;
+        return;
+      }
+      region.kind = RegionLeaf::Kind::turned_box;
+      region.center = map.point(0.5 * (primitive.lower() + primitive.upper()));
+      region.shape = static_cast<std::uint32_t>(turned_boxes_.size());
+      TurnedBox box;
+      for (int i = 0; i < 3; ++i) {
+        const Vec3 row = leaf.placement.local_from_world_linear().row(i);
+        box.normals[static_cast<std::size_t>(i)] = normalize(row);
+        box.half[i] = 0.5 * primitive.size[i] / length(row);
+      }
+      turned_boxes_.push_back(box);
+    }
+  });
 }
 
 Region LeafRegions::classify(const RegionLeaf& leaf, const Box3& box) const {
   if (!leaf.bounds.overlaps(box)) return Region::outside;
   switch (leaf.kind) {
-    case RegionLeaf::Kind::ball:
-    case RegionLeaf::Kind::upright_box:
-      return BoxRegions(*this, leaf, box).classify(0, box.lower.x, box.upper.x);
+    case RegionLeaf::Kind::plain:
+      return classify_plain(leaf, box);
+    case RegionLeaf::Kind::ring:
+      return classify_ring(leaf, box);
+    case RegionLeaf::Kind::turned_box:
+      return classify_turned_box(leaf, box);
     case RegionLeaf::Kind::general:
       break;
   }
@@ -83,47 +153,54 @@ Region LeafRegions::classify(const RegionLeaf& leaf, const Box3& box) const {
   return tenon::classify(tree_.primitives, placed.primitive, placed.placement.to_local(box));
 }
 
-BoxRegions::BoxRegions(const LeafRegions& regions, const RegionLeaf& leaf, const Box3& box)
-    : regions_(&regions), leaf_(&leaf), box_(&box) {
-  std::array<double, 3> nearest{}, farthest{};
-  std::array<bool, 3> apart{}, cuts{};
+Region LeafRegions::classify_plain(const RegionLeaf& leaf, const Box3& box) const {
+  SquareRange squares;
+  bool within = true;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
     const double low = box.lower[axis], high = box.upper[axis];
-    if (leaf.kind == RegionLeaf::Kind::ball) {
-      nearest[a] = nearest_square(leaf.center[axis], low, high);
-      farthest[a] = farthest_square(leaf.center[axis], low, high);
+    if (leaf.is_round_along(axis)) {
+      squares.nearest += nearest_square(leaf.center[axis], low, high);
+      squares.farthest += farthest_square(leaf.center[axis], low, high);
     } else {
-      apart[a] = leaf.bounds.lower[axis] > high || low > leaf.bounds.upper[axis];
-      cuts[a] = low < leaf.bounds.lower[axis] + regions.margin_ || high > leaf.bounds.upper[axis] - regions.margin_;
+      within = within && low >= leaf.bounds.lower[axis] + margin_ && high <= leaf.bounds.upper[axis] - margin_;
     }
   }
-  for (std::size_t a = 0; a < 3; ++a) {
-    const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
-    nearest_[a] = nearest[b] + nearest[c];
-    farthest_[a] = farthest[b] + farthest[c];
-    apart_[a] = apart[b] || apart[c];
-    cuts_[a] = cuts[b] || cuts[c];
-  }
+  if (squares.nearest > leaf.outer_square) return Region::outside;
+  return within && squares.farthest < leaf.inner_square ? Region::inside : Region::straddles;
 }
 
-Region BoxRegions::classify(int axis, double low, double high) const {
-  const auto a = static_cast<std::size_t>(axis);
-  if (leaf_->kind == RegionLeaf::Kind::ball) {
-    if (nearest_[a] + nearest_square(leaf_->center[axis], low, high) > leaf_->outer_square) return Region::outside;
-    return farthest_[a] + farthest_square(leaf_->center[axis], low, high) < leaf_->inner_square ? Region::inside
-                                                                                                : Region::straddles;
+// As Torus::classify: the circle's point nearest to the box's centre stands for the whole circle, less what it curves
+// away, which is (R / ρ_min) (v·δ)² in squares of distances.
+Region LeafRegions::classify_ring(const RegionLeaf& leaf, const Box3& box) const {
+  const Ring& ring = rings_[leaf.shape];
+  const Vec3 half = 0.5 * box.size(), from_center = box.center() - leaf.center;
+  const double along = dot(ring.axis, from_center);
+  if (std::fabs(along) - dot(abs(ring.axis), half) > ring.minor + margin_) return Region::outside;
+  const Vec3 radial = from_center - along * ring.axis;
+  const double across = length(radial), hole_square = square(std::max(ring.major - ring.minor - margin_, 0.0));
+  if (!(across > 0)) return dot(half, half) < hole_square ? Region::outside : Region::straddles;
+  const Vec3 u = radial * (1 / across), v = cross(ring.axis, u);
+  const double reach = dot(abs(u), half), aside = dot(abs(v), half);
+  if (square(across + reach) + square(aside) < hole_square) return Region::outside;
+  const SquareRange squares = square_distances(leaf.center + ring.major * u, box);
+  if (squares.farthest < leaf.inner_square) return Region::inside;
+  const double least_across = across - reach;
+  if (!(least_across > 0)) return Region::straddles;
+  const double curved = ring.major / least_across * square(aside);
+  return squares.nearest - curved > leaf.outer_square ? Region::outside : Region::straddles;
+}
+
+Region LeafRegions::classify_turned_box(const RegionLeaf& leaf, const Box3& box) const {
+  const TurnedBox& turned = turned_boxes_[leaf.shape];
+  const Vec3 half = 0.5 * box.size(), from_center = box.center() - leaf.center;
+  bool within = true;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3& normal = turned.normals[static_cast<std::size_t>(i)];
+    const double distance = std::fabs(dot(normal, from_center)), reach = dot(abs(normal), half);
+    if (distance - reach > turned.half[i] + margin_) return Region::outside;
+    within = within && distance + reach < turned.half[i] - margin_;
   }
-  const double begin = leaf_->bounds.lower[axis], end = leaf_->bounds.upper[axis];
-  if (apart_[a] || begin > high || low > end) return Region::outside;
-  if (leaf_->kind == RegionLeaf::Kind::upright_box) {
-    const bool within = low >= begin + regions_->margin_ && high <= end - regions_->margin_;
-    return within && !cuts_[a] ? Region::inside : Region::straddles;
-  }
-  Box3 part = *box_;
-  part.lower[axis] = low;
-  part.upper[axis] = high;
-  return regions_->classify(*leaf_, part);
+  return within ? Region::inside : Region::straddles;
 }
 
 }  // namespace tenon::cells

@@ -11,18 +11,29 @@ namespace tenon::cells {
 
 /// What the subdivision asks of a leaf all the time, close together in memory.
 struct RegionLeaf {
-  enum class Kind : std::uint8_t { general, ball, upright_box };
+  enum class Kind : std::uint8_t {
+    general,
+    plain,  ///< a ball, an upright box or an upright cylinder: RegionLeaf says it all
+    ring,
+    turned_box
+  };
 
   Box3 bounds;
-  Vec3 center;              ///< of a ball
-  double inner_square = 0;  ///< of the radius of a ball that lies inside the leaf; 0: none
-  double outer_square = 0;  ///< of one that the leaf lies in
+  Vec3 center;  ///< of what is round
+  double inner_square =
+      0;  ///< of a radius: what is nearer to the centre, along the round axes, does not keep it outside
+  double outer_square = 0;  ///< what is farther is outside
+  double extent = 0;        ///< how large its features are: the longest edge of its bounds, for a ring across its tube
   float price = 1;          ///< CellCost::of_leaf
   Kind kind = Kind::general;
+  std::uint8_t round_axes = 0;  ///< bit a: distances along axis a count. Along the others a plain leaf is its bounds
   LeafId leaf;
+  std::uint32_t shape = 0;  ///< of rings and turned boxes: which
+
+  bool is_round_along(int axis) const { return (round_axes >> axis & 1) != 0; }
 };
 
-/// Tells where boxes lie with respect to the leaves: what classify() says, and for balls and upright boxes the same
+/// Tells where boxes lie with respect to the leaves: what classify() says, and for the commonest kinds much the same
 /// without going through their frames, since most of a build's time goes into this question.
 class LeafRegions {
  public:
@@ -30,38 +41,35 @@ class LeafRegions {
   explicit LeafRegions(const CsgTree& tree, const LeafRecords* records = nullptr);
 
   const RegionLeaf& operator[](LeafId id) const { return leaves_[id.get()]; }
+  /// Twice enclosure_margin: covers the leaves' errors of place, and the roundings of who uses RegionLeaf.
+  double margin() const { return margin_; }
 
   /// @param box  of the world, bounded
   Region classify(const RegionLeaf& leaf, const Box3& box) const;
   Region classify(LeafId id, const Box3& box) const { return classify(leaves_[id.get()], box); }
 
  private:
-  friend class BoxRegions;
+  // A torus in the lengths of the world.
+  struct Ring {
+    Vec3 axis;
+    double major = 0, minor = 0;
+  };
+  // Between three pairs of planes around its centre.
+  struct TurnedBox {
+    std::array<Vec3, 3> normals;
+    Vec3 half;  // along the normals
+  };
+
+  void add_shape(const Leaf& leaf, RegionLeaf& region);
+  Region classify_plain(const RegionLeaf& leaf, const Box3& box) const;
+  Region classify_ring(const RegionLeaf& leaf, const Box3& box) const;
+  Region classify_turned_box(const RegionLeaf& leaf, const Box3& box) const;
 
   const CsgTree& tree_;
-  double margin_;  // twice enclosure_margin: covers the leaf's errors of place, and the roundings here
+  double margin_;
   std::vector<RegionLeaf> leaves_;
-};
-
-/// A leaf seen from one box: what each axis says is worked out once, so that parts of the box between planes across one
-/// axis are told quickly.
-class BoxRegions {
- public:
-  BoxRegions() = default;
-  BoxRegions(const LeafRegions& regions, const RegionLeaf& leaf, const Box3& box);
-
-  /// The part of the box from `low` to `high`.
-  Region classify(int axis, double low, double high) const;
-
- private:
-  const LeafRegions* regions_ = nullptr;
-  const RegionLeaf* leaf_ = nullptr;
-  const Box3* box_ = nullptr;
-  // What the two axes across each axis say.
-  std::array<double, 3> nearest_{};  // squares of distances from a ball's centre
-  std::array<double, 3> farthest_{};
-  std::array<bool, 3> apart_{};  // outside whatever the part is
-  std::array<bool, 3> cuts_{};   // of an upright box: never inside
+  std::vector<Ring> rings_;
+  std::vector<TurnedBox> turned_boxes_;
 };
 
 }  // namespace tenon::cells

@@ -22,10 +22,6 @@ bool keeps_nearly_all(const SpacePart& part, const SpacePart& whole) {
   return 10 * part.leaves.size() > 9 * whole.leaves.size();
 }
 
-double weigh(double sum, std::size_t leaves) {
-  return leaves <= Cell::most_tabled ? sum : sum * CellCost::untabled_factor;
-}
-
 }  // namespace
 
 Subdivision Subdivider::subdivide(const SpacePart& part, std::size_t most_cells, Subdivision::Built& root) {
@@ -94,7 +90,7 @@ bool Subdivider::worth_splitting(const SpacePart& part) const {
   if (result_.store.cells.size() > most_cells_) return false;
   double smallest = std::numeric_limits<double>::infinity();
   for (const LeafId id : part.leaves) {
-    smallest = std::min(smallest, max_component(input_.regions[id].bounds.size()));
+    smallest = std::min(smallest, input_.regions[id].extent);
   }
   // More leaves than a word of truth values has room for cost much more.
   const double finest = input_.quality.finest / 4;
@@ -106,17 +102,25 @@ SplitPlane Subdivider::choose_plane(const SpacePart& part) {
   SplitPlane best;
   choose_by_bounds(part, best);
   if (part.leaves.size() > most_folded) return best;
-  double least = best.axis < 0 ? std::numeric_limits<double>::infinity() : price(part, best);
+  planes_.clear();
+  if (best.axis >= 0) planes_.push_back(best);
   const Vec3 size = part.box.size();
+  const int beside = input_.quality.beside;
   for (int axis = 0; axis < 3; ++axis) {
     if (size[axis] < max_component(size) / 8) continue;
-    for (int i = 1; i <= input_.quality.candidates; ++i) {
-      const SplitPlane plane{axis, part.box.lower[axis] + i / (input_.quality.candidates + 1.0) * size[axis]};
-      const double p = price(part, plane);
-      if (p >= least) continue;
-      least = p;
-      best = plane;
+    for (int i = 0; i <= 2 * beside; ++i) {
+      planes_.push_back({axis, evenly_spaced(part.box.lower[axis], part.box.upper[axis], i, beside)});
     }
+  }
+  trials_.prepare(part.expression, part.leaves, part.box, planes_);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < planes_.size(); ++i) {
+    const auto [low, high] = halves(part.box, planes_[i]);
+    const double price =
+        low.surface_area() * trials_.folded_cost(i, 0, low) + high.surface_area() * trials_.folded_cost(i, 1, high);
+    if (price >= least) continue;
+    least = price;
+    best = planes_[i];
   }
   return best;
 }
@@ -160,29 +164,10 @@ void Subdivider::choose_by_bounds(const SpacePart& part, SplitPlane& best) const
   }
 }
 
-double Subdivider::price(const SpacePart& part, const SplitPlane& plane) {
-  const auto [low, high] = halves(part.box, plane);
-  return low.surface_area() * folded_cost(low, part) + high.surface_area() * folded_cost(high, part);
-}
-
-double Subdivider::folded_cost(const Box3& box, const SpacePart& part) {
-  const Box3 within = grown(box, input_.scale.growth);
-  const auto region_of = [&](LeafId id) { return input_.regions.classify(id, within); };
-  if (folder_.fold(part.expression, region_of, trial_).constant) return 0;
-  double sum = CellCost::visit;
-  std::size_t count = 0;
-  for (const Symbol& s : trial_) {
-    if (s.kind != Symbol::Kind::leaf) continue;
-    sum += static_cast<double>(input_.regions[s.leaf].price);
-    ++count;
-  }
-  return weigh(sum, count);
-}
-
 double Subdivider::leaf_cost(const SpacePart& part) const {
-  double sum = CellCost::visit;
+  double sum = 0;
   for (const LeafId id : part.leaves) sum += static_cast<double>(input_.regions[id].price);
-  return weigh(sum, part.leaves.size());
+  return CellCost::of_cell(sum, part.leaves.size());
 }
 
 // The boundary lies on the leaves, so within their bounds.

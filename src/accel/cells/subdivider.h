@@ -4,6 +4,8 @@
 #include <deque>
 #include <vector>
 
+#include "accel/cells/split_plane.h"
+#include "accel/cells/split_trials.h"
 #include "accel/cells/subdivision.h"
 #include "accel/cells/tabled_subdivider.h"
 
@@ -24,7 +26,8 @@ struct SpacePart {
 /// over. Its memory is reused from part to part.
 class Subdivider {
  public:
-  explicit Subdivider(const SubdivisionInput& input) : input_(input), tabled_(input) {}
+  explicit Subdivider(const SubdivisionInput& input)
+      : input_(input), tabled_(input), trials_(input.regions, input.scale.growth) {}
 
   /// Subdivides one part of space by itself.
   /// @param most_cells  when there are more, nothing is split any further
@@ -45,8 +48,6 @@ class Subdivider {
   bool worth_splitting(const SpacePart& part) const;
   SplitPlane choose_plane(const SpacePart& part);
   void choose_by_bounds(const SpacePart& part, SplitPlane& best) const;
-  double price(const SpacePart& part, const SplitPlane& plane);
-  double folded_cost(const Box3& box, const SpacePart& part);
   double leaf_cost(const SpacePart& part) const;
   Box3 tight_box(const SpacePart& part) const;
 
@@ -55,7 +56,8 @@ class Subdivider {
   Subdivision result_;
   std::size_t most_cells_ = ~std::size_t{0};
   Folder folder_;
-  LocalExpression trial_;
+  SplitTrials trials_;
+  std::vector<SplitPlane> planes_;               // to try
   std::deque<std::array<SpacePart, 2>> levels_;  // the two sides under work at each depth
 };
 

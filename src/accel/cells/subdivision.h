@@ -17,8 +17,8 @@ struct BuildQuality {
   /// cell costs), and taken back where what follows does not pay either.
   int look_ahead = 2;
   /// Cells are split until they are this small against the smallest of their leaves.
-  double finest = 1.0 / 32;
-  int candidates = 1;  ///< evenly spaced planes tried along each axis
+  double finest = 1.0 / 8;
+  int beside = 1;  ///< evenly spaced planes tried on either side of the middle
 };
 
 /// What is subdivided, and what everybody who takes part in it knows.
