@@ -79,6 +79,40 @@ TEST(LeafRegions, SayNothingOfABoxThatAPointOfItContradicts) {
             1.1 * static_cast<double>(straddling_by_frame));
 }
 
+// Where a line crosses a leaf within a box, it does so within the smaller one.
+TEST(LeafRegions, FindTheSurfaceWithinABox) {
+  Draw draw(73);
+  const CsgTree tree = many_kinds(draw);
+  const LeafRegions regions(tree);
+  std::size_t crossings = 0, smaller = 0, plain = 0;
+  for (std::size_t i = 0; i < tree.leaves.size(); ++i) {
+    const Leaf& leaf = tree.leaves[i];
+    for (int round = 0; round < 200; ++round) {
+      const Box3 box = box_near(draw, leaf.bounds);
+      const Box3 surface = regions.surface_within(regions[LeafId{i}], box);
+      EXPECT_TRUE(box.contains(surface));
+      if (regions[LeafId{i}].kind == RegionLeaf::Kind::plain) {
+        ++plain;
+        smaller += surface.surface_area() < 0.7 * box.surface_area();
+      }
+      for (int k = 0; k < 10; ++k) {
+        const Vec3 in_box = draw.in_box(box), direction = draw.direction();
+        const Ray ray{in_box - 10 * direction, direction};
+        Spans spans;
+        tenon::spans(tree.primitives, leaf.primitive, leaf.placement, ray, 0, -1, spans);
+        for (const Crossing& crossing : spans) {
+          const Vec3 at = ray.origin + crossing.t * ray.direction;
+          if (!box.contains(at)) continue;
+          ++crossings;
+          ASSERT_TRUE(grown(surface, 0x1p-40).contains(at)) << "leaf " << i << ", round " << round;
+        }
+      }
+    }
+  }
+  EXPECT_GT(crossings, 10000u);
+  EXPECT_GT(2 * smaller, plain);
+}
+
 // Vectors say the same of the two sides of planes, but where rounding decides.
 TEST(LeafRegions, SayTheSameSideBySide) {
   Draw draw(72);

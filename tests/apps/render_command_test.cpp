@@ -235,6 +235,21 @@ TEST_F(RenderCommand, StatisticsHaveTheirNames) {
   EXPECT_EQ(json["primitive_tests"], tests);
 }
 
+// Where the boxes of all primitives overlap, cells are cut around the surface itself (the thesis's grooved sphere,
+// §4.3, on which the OKD-tree has one leaf).
+TEST_F(RenderCommand, CellsTestFewOfThePrimitivesWhoseBoxesOverlap) {
+  const auto tests_per_ray = [&](const std::string& accelerator) {
+    const std::string scene = std::string(TENON_ROOT) + "/scenes/bench/bare_grooved_sphere.scad";
+    const Outcome outcome = run({"render", scene, "-q", "--accel", accelerator, "--size", "320x240", "--spp", "1", "-o",
+                                 "grooved.png", "--stats", "s.json"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    const Json primary = Json::parse(read("s.json"))["per_kind"]["primary"];
+    return primary["primitive_tests"].get<double>() / (320 * 240);
+  };
+  EXPECT_LT(tests_per_ray("cells"), 1.3);
+  EXPECT_GT(tests_per_ray("okd"), 4);
+}
+
 // Each scene that is wrong, and what the message must hold.
 TEST_F(RenderCommand, WrongScenesLeaveNothing) {
   write("empty.scad", "");

@@ -203,4 +203,52 @@ Region LeafRegions::classify_turned_box(const RegionLeaf& leaf, const Box3& box)
   return within ? Region::inside : Region::straddles;
 }
 
+Box3 LeafRegions::surface_within(const RegionLeaf& leaf, const Box3& box) const {
+  const Box3 inside = intersection(box, grown(leaf.bounds, margin_));
+  if (leaf.kind != RegionLeaf::Kind::plain || inside.is_empty()) return inside;
+  Box3 surface = round_surface_within(leaf, inside);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!leaf.is_round_along(axis)) surface = hull(surface, face_within(leaf, inside, axis));
+  }
+  return surface;
+}
+
+// Of a pair of flat faces.
+Box3 LeafRegions::face_within(const RegionLeaf& leaf, const Box3& box, int axis) const {
+  Box3 faces;
+  for (const double place : {leaf.bounds.lower[axis], leaf.bounds.upper[axis]}) {
+    Box3 face = box;
+    face.lower[axis] = std::max(box.lower[axis], place - margin_);
+    face.upper[axis] = std::min(box.upper[axis], place + margin_);
+    if (!face.is_empty()) faces = hull(faces, face);
+  }
+  return faces;
+}
+
+// On a ball's surface, or a cylinder's side, the square along one axis is that of the radius less those along the
+// others.
+Box3 LeafRegions::round_surface_within(const RegionLeaf& leaf, const Box3& box) const {
+  if (leaf.round_axes == 0) return Box3::empty();
+  Box3 surface = box;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!leaf.is_round_along(axis)) continue;
+    double nearest = 0, farthest = 0;
+    for (int other = 0; other < 3; ++other) {
+      if (other == axis || !leaf.is_round_along(other)) continue;
+      nearest += nearest_square(leaf.center[other], surface.lower[other], surface.upper[other]);
+      farthest += farthest_square(leaf.center[other], surface.lower[other], surface.upper[other]);
+    }
+    if (nearest > leaf.outer_square) return Box3::empty();
+    const double most = std::sqrt(leaf.outer_square - nearest) + margin_;
+    const double least = std::sqrt(std::max(leaf.inner_square - farthest, 0.0)) - margin_;
+    const double low = surface.lower[axis] - leaf.center[axis], high = surface.upper[axis] - leaf.center[axis];
+    // Both halves of the surface, or the one that the box reaches.
+    const double from = low < -least ? -most : least, to = high > least ? most : -least;
+    surface.lower[axis] = std::max(surface.lower[axis], leaf.center[axis] + from);
+    surface.upper[axis] = std::min(surface.upper[axis], leaf.center[axis] + to);
+    if (surface.is_empty()) return Box3::empty();
+  }
+  return surface;
+}
+
 }  // namespace tenon::cells

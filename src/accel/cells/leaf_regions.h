@@ -48,6 +48,9 @@ class LeafRegions {
   Region classify(const RegionLeaf& leaf, const Box3& box) const;
   Region classify(LeafId id, const Box3& box) const { return classify(leaves_[id.get()], box); }
 
+  /// A box around the part of the leaf's surface that lies in a box; Box3::empty() when there is certainly none.
+  Box3 surface_within(const RegionLeaf& leaf, const Box3& box) const;
+
  private:
   // A torus in the lengths of the world.
   struct Ring {
@@ -61,6 +64,8 @@ class LeafRegions {
   };
 
   void add_shape(const Leaf& leaf, RegionLeaf& region);
+  Box3 round_surface_within(const RegionLeaf& leaf, const Box3& box) const;
+  Box3 face_within(const RegionLeaf& leaf, const Box3& box, int axis) const;
   Region classify_plain(const RegionLeaf& leaf, const Box3& box) const;
   Region classify_ring(const RegionLeaf& leaf, const Box3& box) const;
   Region classify_turned_box(const RegionLeaf& leaf, const Box3& box) const;

@@ -20,7 +20,8 @@ Subdivision::Built TabledSubdivider::subdivide(const Box3& box, std::span<const 
   rest.drop_irrelevant();
   if (rest.leaves == 0) return {};
   search_.assign(std::span(expression_.leaves).first(expression_.leaf_count));
-  return build(make_part(box, rest, depth));
+  const Part whole = make_part(box, rest, depth);
+  return whole.rest.leaves == 0 ? Subdivision::Built{} : build(whole);
 }
 
 // Recursive, as deep as the limits on splitting allow.
@@ -62,9 +63,12 @@ bool TabledSubdivider::worth_splitting(const Part& part) const {
 }
 
 TabledSubdivider::Part TabledSubdivider::make_part(const Box3& box, const FoldedTable& rest, int depth) const {
-  // The boundary lies on the leaves, so within their bounds.
+  // The boundary lies on the surfaces of the leaves.
+  const Box3 within = grown(box, input_.scale.growth);
   Box3 around;
-  for_each_bit(rest.leaves, [&](std::size_t i) { around = hull(around, search_.leaf(i).bounds); });
+  for_each_bit(rest.leaves,
+               [&](std::size_t i) { around = hull(around, input_.regions.surface_within(search_.leaf(i), within)); });
+  if (around.is_empty()) return {box, {}, {}, 0, depth, 0};
   const Box3 tight = intersection(box, grown(around, input_.scale.growth));
   return {box, rest, tight, tight.surface_area() * search_.cell_cost(rest.leaves), depth, 0};
 }
