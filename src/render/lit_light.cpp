@@ -44,7 +44,7 @@ LitLight::LitLight(const Light& light, const Environment* environment)
   if (is_even) even_importance_ = importance_at(position_);
 }
 
-IncidentLight LitLight::at(const Vec3& point) const {
+IncidentLight LitLight::other_at(const Vec3& point) const {
   if (kind_ == LightKind::directional) return {-direction_, inf, emitted_};
   const Vec3 to_light = position_ - point;
   const double squared = dot(to_light, to_light);

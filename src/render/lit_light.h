@@ -42,7 +42,10 @@ class LitLight {
 
   /// The light as if it stood in one point: what the course's illumination model sums over. Nothing of a light that is
   /// around the scene.
-  IncidentLight at(const Vec3& point) const;
+  IncidentLight at(const Vec3& point) const {
+    if (kind_ == LightKind::point && !(fade_distance_ > 0)) return {position_ - point, 1, emitted_};
+    return other_at(point);
+  }
 
   /// About what a white surface at the point would show of it, shadows aside: never 0 where the light reaches, but for
   /// a uniform world, of which no direction is worth drawing.
@@ -60,6 +63,7 @@ class LitLight {
   const Environment* environment() const { return environment_; }
 
  private:
+  IncidentLight other_at(const Vec3& point) const;
   double importance_at(const Vec3& point) const;
   double spot_share(const Vec3& to_light) const;
   double fading(const Vec3& to_light) const;

@@ -78,9 +78,8 @@ void WhittedIntegrator::connect(std::span<const RayQuery> rays, std::span<const 
     for (const std::uint32_t i : surfaces_) {
       const IncidentLight incident = light.at(hits[i].point);
       if (incident.light == Rgb{}) continue;
-      const Vec3 to_light = normalize(incident.to_light);
-      const double cos = dot(nodes_[i].normal, to_light);
-      if (!(cos > 0)) continue;
+      const double toward = dot(nodes_[i].normal, incident.to_light);
+      if (!(toward > 0)) continue;
       if (scene_.is_blocked_by_light({hits[i].point, incident.to_light}, incident.t_max, &light)) continue;
       // Part by part, where they stay: a copy of what was just put together waits for all of its parts.
       RayQuery& query = shadow_queries_.emplace_back();
@@ -92,8 +91,9 @@ void WhittedIntegrator::connect(std::span<const RayQuery> rays, std::span<const 
       ShadowRay& ray = shadow_rays_.emplace_back();
       ray.node = i;
       ray.light = &light;
-      ray.to_light = to_light;
-      ray.cos = cos;
+      const double share = 1 / length(incident.to_light);
+      ray.to_light = share * incident.to_light;
+      ray.cos = share * toward;
       ray.incident = incident.light;
     }
   }

@@ -31,12 +31,7 @@ class ExactSum {
     // Not clamp(): what compares false with everything is to end as 0.
     const double bounded = value > 0 ? std::min(value, limit()) : value < 0 ? std::max(value, -limit()) : 0;
     const double units = bounded * power_of_two(fraction_bits);
-    // From 2^52 on every double is whole, up to 2^63 int64_t holds it, and is sooner made of it than more bits.
-    if (std::fabs(units) < 0x1p52) {
-      units_ += static_cast<std::int64_t>(std::nearbyint(units));
-    } else {
-      units_ += std::fabs(units) < 0x1p63 ? static_cast<std::int64_t>(units) : whole(units);
-    }
+    units_ += whole(units);
   }
   ExactSum& operator+=(const ExactSum& other) { return units_ += other.units_, *this; }
 
@@ -54,12 +49,17 @@ class ExactSum {
     return power;
   }
 
-  // A double of at least 2^52: its significand, shifted.
+  // The nearest whole number, ties to even; without branches, for nobody knows which way they would go. From 2^52 on
+  // every double is whole, and it is below 2^52 that the addition of 2^52 rounds.
   static Integer whole(double units) {
-    const auto bits = std::bit_cast<std::uint64_t>(std::fabs(units));
-    const auto significand = static_cast<Integer>((bits & ((std::uint64_t{1} << 52U) - 1)) | std::uint64_t{1} << 52U);
-    const Integer size = significand << (static_cast<int>(bits >> 52U) - 1075);
-    return units < 0 ? -size : size;
+    const double size = std::fabs(units);
+    const double rounded = size < 0x1p52 ? (size + 0x1p52) - 0x1p52 : size;
+    const auto bits = std::bit_cast<std::uint64_t>(rounded);
+    const std::uint64_t significand = (bits & ((std::uint64_t{1} << 52U) - 1)) | std::uint64_t{1} << 52U;
+    const int shift = static_cast<int>(bits >> 52U) - 1075;  // of 0 it is so far below that nothing is left
+    const auto number = static_cast<Integer>(significand >> std::clamp(-shift, 0, 63)) << std::max(shift, 0);
+    const Integer sign = -static_cast<Integer>(units < 0);
+    return (number ^ sign) - sign;
   }
 
   Integer units_ = 0;

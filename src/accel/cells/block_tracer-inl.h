@@ -76,20 +76,25 @@ class BlockTracer {
   // trial on the bench; it decides who traces a ray, never what comes of it.
   static constexpr double widest_spread = 0.25;
 
+  // Rays that do not meet the scene have no part in them.
   void FindIntervals() {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
+    const F f;
+    const auto infinity = hn::Set(f, std::numeric_limits<float>::infinity()), zero = hn::Zero(f);
     for (std::size_t a = 0; a < 3; ++a) {
-      low_origin_[a] = low_inverse_[a] = infinity;
-      high_origin_[a] = high_inverse_[a] = -infinity;
-    }
-    for (std::size_t i = 0; i < rays_.count; ++i) {
-      if (!rays_.meets_scene(i)) continue;
-      for (std::size_t a = 0; a < 3; ++a) {
-        low_origin_[a] = std::min(low_origin_[a], rays_.box_origin[a][i]);
-        high_origin_[a] = std::max(high_origin_[a], rays_.box_origin[a][i]);
-        low_inverse_[a] = std::min(low_inverse_[a], rays_.box_inverse[a][i]);
-        high_inverse_[a] = std::max(high_inverse_[a], rays_.box_inverse[a][i]);
+      auto low_origin = infinity, low_inverse = infinity;
+      auto high_origin = hn::Neg(infinity), high_inverse = hn::Neg(infinity);
+      for (std::size_t i = 0; i < rays_.padded; i += float_lanes) {
+        const auto meets = hn::Ge(hn::Load(f, &rays_.box_end[i]), zero);
+        const auto origin = hn::Load(f, &rays_.box_origin[a][i]), inverse = hn::Load(f, &rays_.box_inverse[a][i]);
+        low_origin = hn::Min(low_origin, hn::IfThenElse(meets, origin, infinity));
+        low_inverse = hn::Min(low_inverse, hn::IfThenElse(meets, inverse, infinity));
+        high_origin = hn::Max(high_origin, hn::IfThenElse(meets, origin, hn::Neg(infinity)));
+        high_inverse = hn::Max(high_inverse, hn::IfThenElse(meets, inverse, hn::Neg(infinity)));
       }
+      low_origin_[a] = hn::GetLane(hn::MinOfLanes(f, low_origin));
+      low_inverse_[a] = hn::GetLane(hn::MinOfLanes(f, low_inverse));
+      high_origin_[a] = hn::GetLane(hn::MaxOfLanes(f, high_origin));
+      high_inverse_[a] = hn::GetLane(hn::MaxOfLanes(f, high_inverse));
     }
   }
 
@@ -247,11 +252,8 @@ class BlockTracer {
       walk.enter[i] = hn::IfThenElse(s.hit, s.enter, never);
       walk.leave[i] = hn::IfThenElse(s.hit, s.leave, never);
       walk.unsure = hn::Or(walk.unsure, s.unsure);
-      if (any_starts) {
-        const auto here = hn::Or(hn::Le(hn::Abs(walk.enter[i]), ray.near), hn::Le(hn::Abs(walk.leave[i]), ray.near));
-        walk.unsure =
-            hn::Or(walk.unsure, rays_.has_from ? DoubtStarts(cell, i, at, starts, walk.enter[i], walk.leave[i])
-                                               : hn::And(starts, here));
+      if (HWY_UNLIKELY(any_starts)) {
+        walk.unsure = hn::Or(walk.unsure, DoubtStarts(cell, i, at, starts, ray.near, walk.enter[i], walk.leave[i]));
       }
     }
     const auto together = hn::Mul(ray.near, hn::Set(d, tolerance_ / (2 * cells_.scale.resolution)));
@@ -286,25 +288,35 @@ class BlockTracer {
     return true;
   }
 
-  // The lanes of `starts` in which something other than the face that a ray starts on may lie at its start.
-  HWY_NOINLINE hn::Mask<D> DoubtStarts(const Cell& cell, std::uint32_t place, std::size_t at, hn::Mask<D> starts,
-                                       hn::Vec<D>& enter, hn::Vec<D>& leave) {
+  // SingleTracer::ClearStart for the lanes of `starts`.
+  // @return those in which something other than the faces that a ray starts on may lie at its start
+  HWY_INLINE hn::Mask<D> DoubtStarts(const Cell& cell, std::uint32_t place, std::size_t at, hn::Mask<D> starts,
+                                     hn::Vec<D> near, hn::Vec<D>& enter, hn::Vec<D>& leave) {
     const D d;
-    HWY_ALIGN double enters[double_lanes];
-    HWY_ALIGN double leaves[double_lanes];
-    HWY_ALIGN double doubts[double_lanes] = {};
-    hn::Store(enter, d, enters);
-    hn::Store(leave, d, leaves);
-    for (std::uint32_t bits = RayBatch::Bits(starts); bits != 0; bits &= bits - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-      if (at + lane >= rays_.count) continue;
-      const bool clear = SingleTracer::ClearStart(rays_.queries[at + lane], cell, place, rays_.near[at + lane],
-                                                  cells_.records, enters[lane], leaves[lane]);
-      doubts[lane] = clear ? 0 : 1;
+    const auto zero = hn::Zero(d);
+    const auto enters_here = hn::Le(hn::Abs(enter), near), leaves_here = hn::Le(hn::Abs(leave), near);
+    if (!rays_.has_from) return hn::And(starts, hn::Or(enters_here, leaves_here));
+    const auto leaf = hn::Set(d, static_cast<double>(cell.leaves[place].get()));
+    auto is_from = hn::Lt(near, zero);  // none
+    for (std::size_t k = 0; k < rays_.start_leaves; ++k) {
+      is_from = hn::Or(is_from, hn::Eq(hn::Load(d, &rays_.start_leaf[k][at]), leaf));
     }
-    enter = hn::Load(d, enters);
-    leave = hn::Load(d, leaves);
-    return hn::Gt(hn::Load(d, doubts), hn::Zero(d));
+    is_from = hn::And(is_from, starts);
+    enter = hn::IfThenElse(hn::And(is_from, enters_here), zero, enter);
+    leave = hn::IfThenElse(hn::And(is_from, leaves_here), zero, leave);
+    // Where the ray starts on a face of the leaf one end lies there; else none.
+    const auto one = hn::Xor(enters_here, leaves_here), any = hn::Or(enters_here, leaves_here);
+    auto doubt = hn::And(starts, hn::Or(hn::AndNot(one, is_from), hn::AndNot(is_from, any)));
+    const RecordRef record = cell.records[place];
+    if (!LeafRecords::may_doubt_starts(record.kind())) return doubt;
+    HWY_ALIGN double doubts[double_lanes] = {};
+    for (std::uint32_t bits = RayBatch::Bits(is_from); bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+      const RayQuery& query = rays_.queries[at + lane];
+      if (start_face(query, cell.leaves[place]) == 0 && !cells_.records.start_is_certain(record, query.ray.direction))
+        doubts[lane] = 1;
+    }
+    return hn::Or(doubt, hn::Gt(hn::Load(d, doubts), zero));
   }
 
   const CellTree& cells_;

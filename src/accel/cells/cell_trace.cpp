@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <hwy/cache_control.h>
+
 #include "primitive/dispatch.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -30,6 +32,12 @@ void TraceOneByOne(SingleTracer& single, std::span<const RayQuery> queries, std:
 // Fewer rays are sooner traced one by one (by trial on the bench).
 constexpr std::size_t least_batch = 8;
 
+// Asks for what lies further on in memory before it is needed.
+HWY_INLINE void Prefetch(std::span<const RayQuery> queries) {
+  const auto* first = reinterpret_cast<const char*>(queries.data());
+  for (std::size_t byte = 0; byte < queries.size_bytes(); byte += 64) hwy::Prefetch(first + byte);
+}
+
 // A function of its own, for what it keeps on the stack would be in the way of single rays.
 HWY_NOINLINE void TraceInBatches(const CellTree& cells, double tolerance, SingleTracer& single,
                                  std::span<const RayQuery> queries, std::span<CellAnswer> answers,
@@ -44,6 +52,8 @@ HWY_NOINLINE void TraceInBatches(const CellTree& cells, double tolerance, Single
     const std::size_t count = std::min(RayBatch::most_rays, queries.size() - begin);
     rays.Begin(cells, queries.subspan(begin, count));
     for (const RayQuery& query : rays.queries) ++statistics[query.kind].rays;
+    const std::size_t next = begin + count;
+    Prefetch(queries.subspan(next, std::min(RayBatch::most_rays, queries.size() - next)));
     found.Clear(rays);
     const bool is_block = count >= least_batch && block.Begin();
     const std::uint64_t left = is_block ? block.Trace(any_will_do, statistics[queries[begin].kind]) : rays.in_scene();

@@ -88,6 +88,8 @@ struct LeafRecords {
   const double* values(RecordRef ref) const { return lines[ref.index()].values.data(); }
   /// Whether a ray that starts on the leaf's face 0 is certain of where it meets that face again.
   bool start_is_certain(RecordRef ref, const Vec3& direction) const;
+  /// Whether there are directions in which it is not.
+  static bool may_doubt_starts(RecordKind kind) { return kind == RecordKind::upright || kind == RecordKind::frustum; }
 
   std::size_t memory_bytes() const { return of_leaf.size() * sizeof(RecordRef) + lines.size() * sizeof(Line); }
 

@@ -38,6 +38,7 @@ struct RayBatch {
     Load();
     FindStarts(cells);
     FindOctants();
+    if (has_from) FindStartLeaves();
   }
 
   /// Those from place i on, as many as a vector has doubles.
@@ -102,6 +103,12 @@ struct RayBatch {
   HWY_ALIGN float box_inverse[3][most_rays];
   HWY_ALIGN float box_end[most_rays];
   std::uint8_t octant[most_rays];  ///< bit a: backward along axis a
+
+  /// Where `has_from`: the leaves of the faces that the rays start on, numbers of LeafId or below zero, side by side;
+  /// of more faces than there is room for, the first.
+  static constexpr std::size_t most_start_leaves = 4;
+  HWY_ALIGN double start_leaf[most_start_leaves][most_rays];
+  std::size_t start_leaves = 0;  ///< of any ray, at most
 
  private:
   HWY_NOINLINE void Load() {
@@ -181,6 +188,18 @@ struct RayBatch {
       hn::Store(hn::DemoteTo(f, shown), f, &box_end[i]);
     }
     if (count < most_rays) unsound &= (std::uint64_t{1} << count) - 1;
+  }
+
+  HWY_NOINLINE void FindStartLeaves() {
+    start_leaves = 0;
+    for (std::size_t i = 0; i < padded; ++i) {
+      for (std::size_t k = 0; k < start_leaves; ++k) start_leaf[k][i] = -1;
+      if (i >= count || queries[i].from == nullptr) continue;
+      const auto& faces = queries[i].from->faces;
+      const std::size_t kept = std::min(faces.size(), most_start_leaves);
+      for (; start_leaves < kept; ++start_leaves) std::fill_n(start_leaf[start_leaves], padded, -1.0);
+      for (std::size_t k = 0; k < kept; ++k) start_leaf[k][i] = static_cast<double>(faces[k].leaf.get());
+    }
   }
 
   void FindOctants() {
