@@ -181,7 +181,7 @@ class PatchSearch {
   // Newton's method in the part's own coordinates.
   bool find_root(const Part& part, const Combination& F, const Combination& G) {
     constexpr int most_steps = 16;
-    double u = 0.5, v = 0.5;
+    double u = 0.5, v = 0.5, moved = 0;
     for (int step = 0; step < most_steps; ++step) {
       const PatchPoint<double> f = evaluate(F.net, u, v), g = evaluate(G.net, u, v);
       const double determinant = f.by_u * g.by_v - f.by_v * g.by_u;
@@ -190,10 +190,13 @@ class PatchSearch {
       u -= du;
       v -= dv;
       if (!(std::fabs(u - 0.5) <= 1 && std::fabs(v - 0.5) <= 1)) return false;
-      if (std::max(std::fabs(du), std::fabs(dv)) <= 4 * unit_roundoff) break;
+      moved = std::max(std::fabs(du), std::fabs(dv));
+      if (moved <= 4 * unit_roundoff) break;
     }
     // The slopes are within a factor of two of the identity's.
     const double u_slip = 4 * (F.error + G.error) + gamma(8), v_slip = u_slip;
+    // Beside the part they need not be, and Newton's method may run in a circle there.
+    if (!(moved <= u_slip)) return false;
     if (u < -u_slip || u > 1 + u_slip || v < -v_slip || v > 1 + v_slip) return true;
     add_root(part.u0 + u * (part.u1 - part.u0), part.v0 + v * (part.v1 - part.v0), 0, 0);
     return true;

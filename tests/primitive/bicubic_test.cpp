@@ -109,6 +109,38 @@ TEST(PatchRoots, LieOnThePatchWithinTheirBounds) {
   RecordProperty("worst_bound", std::to_string(worst));
 }
 
+// Beside a silhouette Newton's method runs in circles, and where it stands then is no root: each has to lie on the
+// line.
+TEST(PatchRoots, OfLinesBesideThePatchAreNone) {
+  Random random(12);
+  // A quarter of a spout: seen along itself by many lines that miss it narrowly.
+  const double rows[4][2] = {{1.7, 0.45}, {2.6, 0.35}, {2.3, 0.95}, {2.7, 1.9}};
+  BezierNet<Vec3> net;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      const double across[4] = {0, 0.3, 0.3, 0}, along[4] = {0, 0, 0.6, 0.6};
+      net[4 * i + j] = {rows[i][0] + along[j] * (i < 2 ? 0.2 : 0.5), across[j] * (i < 3 ? 2 : 1),
+                        rows[i][1] - along[j]};
+    }
+  }
+  int roots = 0, wrong = 0;
+  for (int n = 0; n < 200'000; ++n) {
+    LocalRay ray;
+    const Vec3 aim = evaluate(net, random.uniform(0, 1), random.uniform(0, 1)).value + 0.1 * random.in_cube();
+    ray.direction = random.direction();
+    ray.origin = aim - 8 * ray.direction;
+    std::vector<PatchRoot> found;
+    find_patch_roots(net, ray, PatchMethod::interval, 1e-3, found);
+    for (const PatchRoot& root : found) {
+      const Vec3 off = evaluate(net, root.u, root.v).value - (ray.origin + root.t * ray.direction);
+      ++roots;
+      wrong += length(off) > 1e-9;
+    }
+  }
+  EXPECT_GT(roots, 50'000);
+  EXPECT_EQ(wrong, 0);
+}
+
 TEST(PatchRoots, MethodsAgree) {
   Random random(3);
   int disagreements = 0, roots = 0;
@@ -324,6 +356,108 @@ TEST(Bicubic, RaysThatLeaveABumpMeetNoPartOfIt) {
     EXPECT_GT(starts, 5'000);
     EXPECT_EQ(met, 0) << choice.name();
   }
+}
+
+// The distance of a point from a patch: of the nearest of many places, and by Gauss's and Newton's method from there.
+double distance_from(const BezierNet<Vec3>& net, const Vec3& p) {
+  constexpr int grid = 48;
+  double u = 0, v = 0, best = Box3::inf;
+  const auto take = [&](double at_u, double at_v) {
+    const double distance = length(evaluate(net, at_u, at_v).value - p);
+    if (distance < best) best = distance, u = at_u, v = at_v;
+  };
+  for (int i = 0; i <= grid; ++i) {
+    for (int j = 0; j <= grid; ++j) take(1.0 * i / grid, 1.0 * j / grid);
+  }
+  for (int step = 0; step < 8; ++step) {
+    const auto at = evaluate(net, u, v);
+    const Vec3 away = p - at.value;
+    const double uu = dot(at.by_u, at.by_u), uv = dot(at.by_u, at.by_v), vv = dot(at.by_v, at.by_v);
+    const double du = dot(at.by_u, away), dv = dot(at.by_v, away), determinant = uu * vv - uv * uv;
+    if (!(determinant > 0)) break;
+    take(std::clamp(u + (vv * du - uv * dv) / determinant, 0.0, 1.0),
+         std::clamp(v + (uu * dv - uv * du) / determinant, 0.0, 1.0));
+  }
+  return best;
+}
+
+// How far triangles over a grid of n by n places stand from the patch at most: h²/8 (|S_uu| + 2 |S_uv| + |S_vv|) for
+// h = 1 / n (Filip, Magedson, Markot, "Surface algorithms using bounds on derivatives", 1986), the derivatives bounded
+// by differences of control points.
+double polygon_error(const BezierNet<Vec3>& net, double n) {
+  const auto at = [&net](std::size_t i, std::size_t j) { return net[4 * i + j]; };
+  double uu = 0, uv = 0, vv = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      if (i < 2) uu = std::max(uu, 6 * length(at(i, j) - 2.0 * at(i + 1, j) + at(i + 2, j)));
+      if (j < 2) vv = std::max(vv, 6 * length(at(i, j) - 2.0 * at(i, j + 1) + at(i, j + 2)));
+      if (i < 3 && j < 3) uv = std::max(uv, 9 * length(at(i, j) - at(i + 1, j) - at(i, j + 1) + at(i + 1, j + 1)));
+    }
+  }
+  return (uu + 2 * uv + vv) / (8 * n * n);
+}
+
+// Subdivision and polygons promise no more than their size: each place they find is as near to the patch as that says,
+// and subdivision finds every place there is.
+TEST(Bicubic, SubdivisionAndPolygonsKeepToTheirSize) {
+  const PrimitiveKind& kind = *PrimitiveStore::find_kind("bicubic");
+  Random random(10);
+  int by_parts = 0, by_polygons = 0, crossed = 0;
+  double worst_part = 0, worst_polygon = 0;
+  for (int n = 0; n < 60; ++n) {
+    SCOPED_TRACE(n);
+    const BezierNet<Vec3> net = random_patch(random, random.chance(0.5) ? 0.2 : 0.5);
+    const double size = random.magnitude(-3, -1), steps = 2 + random.below(30);
+    std::vector<FieldValue> values;
+    for (const FieldInfo& field : kind.fields) values.push_back(field.fallback);
+    PointLists rows(4, std::vector<Vec3>(4));
+    for (std::size_t i = 0; i < 16; ++i) rows[i / 4][i % 4] = net[i];
+    values[0] = ControlNets{rows};
+    Choice method = std::get<Choice>(values[4]);
+    method.index = 3;
+    values[4] = method;
+    values[6] = steps;
+    PrimitiveStore store;
+    const Result<PrimitiveId> polygons = store.add(kind, values);
+    ASSERT_TRUE(polygons.ok());
+    for (int i = 0; i < 20; ++i) {
+      const LocalRay ray = ray_through(evaluate(net, random.uniform(0, 1), random.uniform(0, 1)).value, random);
+      const double speed = length(ray.direction);
+      const auto place = [&ray](double t) { return ray.origin + t * ray.direction; };
+      std::vector<PatchRoot> parts, exact;
+      find_patch_roots(net, ray, PatchMethod::subdivision, size, parts);
+      find_patch_roots(net, ray, PatchMethod::interval, size, exact);
+      for (const PatchRoot& root : parts) {
+        const double distance = distance_from(net, place(root.t)) / (std::sqrt(3) * size);
+        EXPECT_LE(distance, 1);
+        worst_part = std::max(worst_part, distance);
+      }
+      for (const PatchRoot& root : exact) {
+        const bool is_found = std::any_of(parts.begin(), parts.end(), [&](const PatchRoot& part) {
+          return std::fabs(part.t - root.t) * speed <= size * (1 + 1e-9);
+        });
+        EXPECT_TRUE(is_found) << root.t;
+      }
+      Spans crossings;
+      spans(store, *polygons, ray, crossings);
+      for (const Crossing& c : crossings) {
+        const double distance = distance_from(net, place(c.t)) / polygon_error(net, steps);
+        EXPECT_LE(distance, 1);
+        worst_polygon = std::max(worst_polygon, distance);
+      }
+      by_parts += static_cast<int>(parts.size());
+      by_polygons += static_cast<int>(crossings.size());
+      crossed += static_cast<int>(exact.size());
+    }
+  }
+  EXPECT_GT(by_parts, 1'000);
+  EXPECT_GT(by_polygons, 1'000);
+  EXPECT_GT(crossed, 1'000);
+  // The bounds are not so wide that they say nothing.
+  EXPECT_GT(worst_part, 0.2);
+  EXPECT_GT(worst_polygon, 0.2);
+  RecordProperty("worst_part", std::to_string(worst_part));
+  RecordProperty("worst_polygon", std::to_string(worst_polygon));
 }
 
 TEST(Bicubic, WhatIsNoPatchIsRefused) {
