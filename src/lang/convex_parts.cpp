@@ -313,6 +313,23 @@ std::optional<Extrusion> extrusion_of(const UnionLeaf& leaf) {
   return std::nullopt;
 }
 
+std::vector<UnionLeaf> views(const UnionLeaf& leaf) {
+  if (leaf.kind != "cube") return {leaf};
+  const Vec3 size = std::get<Vec3>(leaf.values[0]);
+  // With x, y and z, each the next one.
+  Affine3 next;
+  for (std::size_t i = 0; i < 3; ++i) {
+    next.m[i][i] = 0;
+    next.m[(i + 1) % 3][i] = 1;
+  }
+  std::vector<UnionLeaf> result{leaf, leaf, leaf};
+  result[1].values[0] = Vec3{size.y, size.z, size.x};
+  result[1].map = leaf.map * next;
+  result[2].values[0] = Vec3{size.z, size.x, size.y};
+  result[2].map = leaf.map * next * next;
+  return result;
+}
+
 std::optional<Extrusion> aligned_extrusion(const Extrusion& extrusion, const Affine3& map) {
   const auto& m = map.m;
   const double across = std::max({std::fabs(m[0][0]), std::fabs(m[0][1]), std::fabs(m[1][0]), std::fabs(m[1][1])});

@@ -28,6 +28,9 @@ struct Extrusion {
 /// A cube, a cylinder or a straight prism as one; nothing for others.
 std::optional<Extrusion> extrusion_of(const UnionLeaf& leaf);
 
+/// A primitive in every way in which it is an extrusion along z: a cube is one along each of its edges.
+std::vector<UnionLeaf> views(const UnionLeaf& leaf);
+
 /// An extrusion under a map that keeps the z axis and planes across it, but for rounding; nothing under others.
 std::optional<Extrusion> aligned_extrusion(const Extrusion& extrusion, const Affine3& map);
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "lang/convex_parts.h"
-#include "lang/primitive_arguments.h"
-#include "plane/arc_corners.h"
+#include "lang/round_profile.h"
+#include "lang/rounded_extrusion.h"
 #include "plane/minkowski.h"
 #include "plane/offset.h"
 #include "plane/shape.h"
@@ -50,34 +50,6 @@ Affine3 with_translation(Affine3 map, const Vec3& t) {
   return map;
 }
 
-// The profile of a solid of revolution on both sides of its axis.
-std::optional<Shape> full_profile(const UnionLeaf& leaf) {
-  if (leaf.kind == "cone") {
-    const double h = std::get<double>(leaf.values[0]), r1 = std::get<double>(leaf.values[1]),
-                 r2 = std::get<double>(leaf.values[2]), low = std::get<bool>(leaf.values[3]) ? -h / 2 : 0;
-    return Shape::of({{{{-r1, low, 0}, {r1, low, 0}, {r2, low + h, 0}, {-r2, low + h, 0}}}});
-  }
-  if (leaf.kind == "cylinder") {
-    const auto extrusion = extrusion_of(leaf);
-    const double r = std::get<double>(leaf.values[1]), low = extrusion->low, high = extrusion->high;
-    return Shape::of({{{{-r, low, 0}, {r, low, 0}, {r, high, 0}, {-r, high, 0}}}});
-  }
-  Outline right;
-  if (leaf.kind == "torus") {
-    const double center = std::get<double>(leaf.values[0]), r = std::get<double>(leaf.values[1]);
-    right = {{full_circle({{center, 0}, r}, 1)}};
-  } else if (leaf.kind == "revolution") {
-    right = std::get<Outline>(leaf.values[0]);
-  } else {
-    return std::nullopt;
-  }
-  Outline left = right;
-  for (auto& loop : left.loops) {
-    for (OutlineCorner& corner : loop) corner = {-corner.x, corner.y, -corner.bulge};
-  }
-  return Shape{Shape::Operation::unite, {}, {Shape::of(right), Shape::of(left)}};
-}
-
 /// The sum of two primitives.
 class PairSum {
  public:
@@ -88,6 +60,8 @@ class PairSum {
     if (auto solid = sum_of_extrusions(a.leaf, b.leaf)) return *solid;
     if (auto solid = sum_with_sphere(a.leaf, b.leaf)) return *solid;
     if (auto solid = sum_with_sphere(b.leaf, a.leaf)) return *solid;
+    if (auto solid = rounded(a.leaf, b.leaf)) return *solid;
+    if (auto solid = rounded(b.leaf, a.leaf)) return *solid;
     require_convex(a);
     require_convex(b);
     if (a.balls->balls.size() * b.balls->balls.size() > most_pairs) {
@@ -104,6 +78,16 @@ class PairSum {
   }
 
   std::optional<Solid> sum_of_extrusions(const UnionLeaf& a, const UnionLeaf& b) {
+    for (const UnionLeaf& along : views(a)) {
+      for (const UnionLeaf& with : views(b)) {
+        if (auto solid = sum_along(along, with)) return solid;
+      }
+    }
+    return std::nullopt;
+  }
+
+  // Of extrusions along one axis.
+  std::optional<Solid> sum_along(const UnionLeaf& a, const UnionLeaf& b) {
     const auto first = extrusion_of(a), second = extrusion_of(b);
     const auto to_frame = a.map.inverse();
     if (!first || !second || !to_frame) return std::nullopt;
@@ -123,17 +107,24 @@ class PairSum {
     const auto scale = even_scale(round.map), sphere_scale = even_scale(sphere.map);
     if (!profile || !scale || !sphere_scale || sphere.kind != "sphere") return std::nullopt;
     const double radius = *sphere_scale * std::get<double>(sphere.values[0]) / *scale;
-    const Outline grown = offset(resolve(*profile), radius, OffsetJoin::round);
-    double reach = 0;
-    for (const auto& loop : grown.loops) {
-      for (const OutlineCorner& c : loop) reach = std::max({reach, std::fabs(c.x), std::fabs(c.y)});
-    }
-    const double far = 4 * reach;
-    const Outline right_side{{{{0, -far, 0}, {far, -far, 0}, {far, far, 0}, {0, far, 0}}}};
+    return revolved(evaluator_, offset(resolve(*profile), radius, OffsetJoin::round),
+                    with_translation(round.map, round.map.translation() + sphere.map.translation()), at_);
+  }
+
+  // A ball rolls around an extrusion that may be stretched along its axis, as linear_extrude() does.
+  std::optional<Solid> rounded(const UnionLeaf& leaf, const UnionLeaf& sphere) {
+    auto extrusion = extrusion_of(leaf);
+    const auto sphere_scale = even_scale(sphere.map);
+    if (!extrusion || !sphere_scale || sphere.kind != "sphere") return std::nullopt;
+    const double stretch = length(leaf.map.column(2)) / length(leaf.map.column(0));
+    const Affine3 frame = leaf.map * Affine3::scale({1, 1, 1 / stretch});
+    const auto scale = even_scale(frame);
+    if (!scale) return std::nullopt;
+    extrusion->low *= stretch;
+    extrusion->high *= stretch;
     const Solid solid =
-        add_primitive(evaluator_, at_, "revolution",
-                      {resolve({Shape::Operation::intersect, {}, {Shape::of(grown), Shape::of(right_side)}})});
-    const Affine3 map = with_translation(round.map, round.map.translation() + sphere.map.translation());
+        rounded_extrusion(evaluator_, *extrusion, *sphere_scale * std::get<double>(sphere.values[0]) / *scale, at_);
+    const Affine3 map = with_translation(frame, frame.translation() + sphere.map.translation());
     return map == Affine3{} ? solid : evaluator_.builder().wrap(Transform{map}, {solid});
   }
 
