@@ -77,13 +77,13 @@ class Top {
 struct BuiltPart {
   Subdivision subdivision;
   Subdivision::Built root;
-  std::vector<WideNode> nodes;  // where it was collapsed by itself
+  HugePageVector<WideNode> nodes;  // where it was collapsed by itself
 };
 
 // Makes room for the whole, judged by the part that is there, so that what is added does not move it late: for a moment
 // that takes twice the memory.
-template <class T>
-void reserve_whole(std::vector<T>& list, double part) {
+template <class List>
+void reserve_whole(List& list, double part) {
   constexpr double spare = 1.125, most_at_once = 8;
   if (part >= 1 || spare * static_cast<double>(list.size()) < static_cast<double>(list.capacity())) return;
   list.reserve(static_cast<std::size_t>(std::min(spare / part, most_at_once) * static_cast<double>(list.size())));

@@ -10,7 +10,7 @@ namespace tenon::cells {
 /// The cells of a whole scene and the nodes above them, the root first; none where there is no boundary at all.
 struct BuiltCells {
   CellStore store;
-  std::vector<WideNode> nodes;
+  HugePageVector<WideNode> nodes;
   int depth = 0;
 };
 

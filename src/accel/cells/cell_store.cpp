@@ -4,8 +4,8 @@ namespace tenon::cells {
 
 namespace {
 
-template <class T>
-void append(std::vector<T>& list, const std::vector<T>& more) {
+template <class List>
+void append(List& list, const List& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 

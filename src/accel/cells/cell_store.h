@@ -7,12 +7,13 @@
 #include "accel/cells/cell.h"
 #include "accel/cells/local_expression.h"
 #include "accel/cells/wide_node.h"
+#include "base/huge_pages.h"
 
 namespace tenon::cells {
 
 /// Cells, and the expressions of those with more than six leaves.
 struct CellStore {
-  std::vector<Cell> cells;
+  HugePageVector<Cell> cells;
   std::vector<ExtendedCell> extended;  ///< Cell::table is an index into it
   std::vector<Symbol> symbols;
   std::vector<LeafId> extended_leaves;

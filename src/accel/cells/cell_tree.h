@@ -1,5 +1,7 @@
 #pragma once
 
+#include <hwy/cache_control.h>
+
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -19,11 +21,18 @@ struct CellTree : CellStore {
   Vec3 center;
   Box3 box;  ///< of the whole solid, absolute
   CellScale scale;
-  std::vector<WideNode> nodes;
+  HugePageVector<WideNode> nodes;
   LeafRecords records;
   PlacedShapes shapes;
   int depth = 0;
   std::uint32_t most_leaves = 0;  ///< in one cell
+
+  /// Has what stands below a child come to the cache, for a ray that will be there soon.
+  void prefetch(ChildRef child) const {
+    if (child.is_cell()) return hwy::Prefetch(&cells[child.index()]);
+    const auto* const node = reinterpret_cast<const std::uint8_t*>(&nodes[child.index()]);
+    for (std::size_t line = 0; line < sizeof(WideNode); line += 64) hwy::Prefetch(node + line);
+  }
 
   bool empty() const { return nodes.empty(); }
   std::size_t memory_bytes() const;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "accel/cells/certainty.h"
+#include "accel/cells/spatial_order.h"
 #include "primitive/lists.h"
 
 namespace tenon::cells {
@@ -320,9 +321,9 @@ bool LeafRecords::start_is_certain(RecordRef ref, const Vec3& direction) const {
 
 LeafRecords LeafRecords::of(const CsgTree& tree, const CellScale& scale, const Vec3& center) {
   LeafRecords records;
-  records.of_leaf.reserve(tree.leaves.size());
+  records.of_leaf.resize(tree.leaves.size());
   Recorder recorder(tree, scale, center, records);
-  for (const Leaf& leaf : tree.leaves) records.of_leaf.push_back(recorder.record(leaf));
+  for (const LeafId leaf : spatial_order(tree, scale.reach)) records.of_leaf[leaf.get()] = recorder.record(tree[leaf]);
   return records;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "accel/cells/cell_scale.h"
+#include "base/huge_pages.h"
 #include "csg/csg_tree.h"
 
 namespace tenon::cells {
@@ -81,7 +82,7 @@ struct LeafRecords {
   };
 
   std::vector<RecordRef> of_leaf;  ///< by LeafId
-  std::vector<Line> lines;
+  HugePageVector<Line> lines;      ///< leaves near to each other mostly stand near to each other
   /// A ray that is flatter than this to an axis of the world is nearly parallel to the faces across it.
   double least_slope = 0;
 

@@ -53,14 +53,16 @@ Split SplitSearch::best_split(const Box3& box, const FoldedTable& rest) {
 }
 
 // Evenly spaced planes, the middle first, and the bounds of leaves, a little off, so that faces do not lie in planes.
+// For a cell that costs no more than two balls planes beside the middle do not pay (by trial on the bench).
 void SplitSearch::list_planes(const Box3& box, std::uint32_t leaves) {
   planes_.clear();
+  const int beside = cell_cost_[leaves] > CellCost::visit + 2 * CellCost::of_leaf(RecordKind::ball, 1) ? beside_ : 0;
   const Vec3 size = box.size();
   const double longest = max_component(size), off = 4 * growth_;
   for (int axis = 0; axis < 3; ++axis) {
     if (size[axis] < longest / 8) continue;
     const double low = box.lower[axis], high = box.upper[axis];
-    for (int i = 0; i <= 2 * beside_; ++i) planes_.push_back({axis, evenly_spaced(low, high, i, beside_)});
+    for (int i = 0; i <= 2 * beside; ++i) planes_.push_back({axis, evenly_spaced(low, high, i, beside)});
     for_each_bit(leaves, [&](std::size_t i) {
       const Box3& b = leaves_[i].bounds;
       for (const double p : {b.lower[axis] - off, b.upper[axis] + off}) {

@@ -79,6 +79,7 @@ class StreamTracer {
     s.index = visit.child.index();
     s.t_in = visit.t_in;
     s.t_out = visit.t_out;
+    cells_.prefetch(visit.child);
     open_[slots_open_] = slot;
     slots_open_ += is_cell ? 0 : 1;
     waiting_[slots_waiting_] = slot;
@@ -136,6 +137,7 @@ class StreamTracer {
       for (std::uint32_t i = 0; i < cell.leaf_count; ++i) {
         LeafList& list = leaves_[static_cast<std::size_t>(cell.records[i].kind())];
         list.record[list.count] = cells_.records.values(cell.records[i]);
+        hwy::Prefetch(list.record[list.count]);
         list.lane[list.count] = static_cast<std::uint8_t>(lane);
         list.place[list.count++] = static_cast<std::uint8_t>(i);
       }

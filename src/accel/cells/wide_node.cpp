@@ -76,7 +76,7 @@ void WideNode::set_child(std::size_t lane, const Box3& box, ChildRef child) {
 }
 
 int collapse(std::span<const SubdivisionNode> binary, std::uint32_t root, const Vec3& center, double slack,
-             std::size_t root_slot, std::vector<WideNode>& nodes) {
+             std::size_t root_slot, HugePageVector<WideNode>& nodes) {
   struct Pending {
     std::uint32_t from;
     std::size_t to;

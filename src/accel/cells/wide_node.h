@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "tenon/math/box3.h"
 
 namespace tenon::cells {
@@ -46,6 +47,6 @@ struct SubdivisionNode;
 /// @param root_slot      the root becomes nodes[root_slot]; the others are added at the end
 /// @return the depth
 int collapse(std::span<const SubdivisionNode> binary, std::uint32_t root, const Vec3& center, double slack,
-             std::size_t root_slot, std::vector<WideNode>& nodes);
+             std::size_t root_slot, HugePageVector<WideNode>& nodes);
 
 }  // namespace tenon::cells
