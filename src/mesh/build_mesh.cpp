@@ -143,9 +143,9 @@ class MeshBuilder {
     built_.notes.push_back(what_ + " has " + std::to_string(count) + " triangle" + (count == 1 ? " " : "s ") + about);
   }
 
-  // A face that stands there twice the same way is taken once.
+  // A face that stands there twice the same way is taken once, unless both close the mesh: parts that share a face.
   void drop_copies() {
-    TriangleMesh& m = mesh();
+    const TriangleMesh& m = mesh();
     std::vector<std::pair<Corners, std::size_t>> sorted;
     for (std::size_t t = 0; t < m.triangles.size(); ++t) {
       Corners key = m.triangles[t];
@@ -161,15 +161,18 @@ class MeshBuilder {
       ++copies;
     }
     if (copies == 0) return;
+    TriangleMesh rest = m;
     std::size_t kept = 0;
     for (std::size_t t = 0; t < m.triangles.size(); ++t) {
       if (is_copy[t]) continue;
-      m.triangles[kept] = m.triangles[t];
-      if (!m.corner_normals.empty()) m.corner_normals[kept] = m.corner_normals[t];
+      rest.triangles[kept] = m.triangles[t];
+      if (!m.corner_normals.empty()) rest.corner_normals[kept] = m.corner_normals[t];
       ++kept;
     }
-    m.triangles.resize(kept);
-    if (!m.corner_normals.empty()) m.corner_normals.resize(kept);
+    rest.triangles.resize(kept);
+    if (!rest.corner_normals.empty()) rest.corner_normals.resize(kept);
+    if (find_open_edges(rest.triangles) && !find_open_edges(m.triangles)) return;
+    mesh() = std::move(rest);
     note(copies, "that stand there already; each is taken once");
   }
 
@@ -196,7 +199,10 @@ class MeshBuilder {
       const auto [a, b, c] = m.corners(t);
       volume += dot(a - origin, cross(b - origin, c - origin));
     }
-    if (volume == 0) m.triangles.clear();
+    if (volume == 0) {
+      m.triangles.clear();
+      built_.notes.push_back(what_ + " encloses no volume, or too little to compute with");
+    }
     if (!(volume < 0)) return;
     for (Corners& corners : m.triangles) std::swap(corners[1], corners[2]);
     for (Corners& corners : m.corner_normals) std::swap(corners[1], corners[2]);

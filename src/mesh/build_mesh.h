@@ -17,9 +17,9 @@ struct BuiltMesh {
 /// Makes a mesh of what a file or a scene says: equal points become one vertex, faces become triangles, and for a solid
 /// the triangles must close it and face outward.
 ///
-/// Mended is what is certain: faces without area are left out, a face that stands there twice is taken once, and a mesh
-/// that faces inward throughout is turned. A mesh that passes through itself is told with a note: its solid is the
-/// union of its parts.
+/// Mended is what is certain: faces without area are left out, a face that stands there twice is taken once where the
+/// mesh is closed without it, and a mesh that faces inward throughout is turned. A mesh that overlaps itself is told
+/// with a note, as are parts of it that add nothing: its solid is the union of its parts.
 ///
 /// @param what  what it is, for messages: "the mesh", "the polyhedron"
 /// @param hull  the surface alone is wanted: nothing needs to be closed

@@ -246,6 +246,23 @@ TEST_F(MeshFileTest, PartsThatAddNothingAreTold) {
   EXPECT_EQ(notes(meshes::together(box, meshes::box({4, 1, 1}, {5, 2, 2}))), Notes{});
 }
 
+// Both need the face, though it stands there twice.
+TEST_F(MeshFileTest, PartsThatShareAFaceStayClosed) {
+  TriangleMesh both = meshes::together(meshes::box({0, 0, 0}, {1, 1, 1}), meshes::box({0, 0, 0}, {1, 1, 2}));
+  const auto loaded = load("a.off", off_of(both));
+  ASSERT_TRUE(loaded) << format_error(loaded.error());
+  EXPECT_EQ(loaded->mesh.triangles.size(), 24u);
+  ASSERT_EQ(loaded->notes.size(), 1u);
+  EXPECT_EQ(loaded->notes[0].find("the mesh passes through itself: "), 0u);
+}
+
+TEST_F(MeshFileTest, AMeshWithoutVolumeIsToldSo) {
+  const auto loaded = load("a.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n");
+  ASSERT_TRUE(loaded);
+  EXPECT_TRUE(loaded->mesh.triangles.empty());
+  EXPECT_EQ(loaded->notes, std::vector<std::string>{"the mesh encloses no volume, or too little to compute with"});
+}
+
 // Boxes whose faces and edges coincide where they overlap.
 TEST_F(MeshFileTest, BoxesThatOverlapByHalfOfOneAreTold) {
   const TriangleMesh box = meshes::box({0, 0, 0}, {1, 1, 1});
