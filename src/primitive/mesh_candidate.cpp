@@ -19,6 +19,7 @@ struct EdgeArea {
 
   bool is_positive() const { return value > error; }
   bool is_negative() const { return value < -error; }
+  bool is_doubtful() const { return !is_positive() && !is_negative(); }
 };
 
 EdgeArea edge_area(const Corner& a, const Corner& b, const double (&e)[2]) {
@@ -99,6 +100,7 @@ bool find_candidate(const MeshLine& line, const TriangleMesh& mesh, std::uint32_
   out.triangle = triangle;
   const int facing = line.direction[line.along] > 0 ? 1 : -1;
   out.is_certain = is_certain;
+  out.is_doubtful = {u.is_doubtful(), v.is_doubtful(), w.is_doubtful()};
   if (out.is_certain) {
     out.is_hit = true;
     out.sense = positive ? facing : -facing;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "primitive/mesh_line.h"
@@ -13,9 +14,11 @@ struct MeshCandidate {
   std::uint32_t triangle = 0;
   bool is_hit = false;      ///< the line as it is given crosses it
   bool is_certain = false;  ///< so does every line within the errors
-  int sense = 0;            ///< -1: the line enters the solid there, 1: it leaves; 0: nobody knows
-  double t = 0;             ///< of the line, not yet scaled
-  double lo = 0, hi = 0;    ///< contains the exact crossing, if there is one
+  /// Of the edges opposite to each corner: the exact line may pass on either side.
+  std::array<bool, 3> is_doubtful{};
+  int sense = 0;          ///< -1: the line enters the solid there, 1: it leaves; 0: nobody knows
+  double t = 0;           ///< of the line, not yet scaled
+  double lo = 0, hi = 0;  ///< contains the exact crossing, if there is one
 };
 
 /// Whether the exact line may cross a triangle of the mesh, and where.
@@ -24,7 +27,7 @@ bool find_candidate(const MeshLine& line, const TriangleMesh& mesh, std::uint32_
 
 /// Makes the crossings of a solid of what the line meets.
 ///
-/// Candidates that are in doubt and share a vertex stand for one another: where the computed line crosses one of them,
+/// Candidates that share an edge in doubt stand for one another: where the computed line crosses one of them,
 /// the exact line may cross another that faces the same way, so the interval of that crossing is widened to contain it.
 /// Where the line as computed crosses none of them but the exact line may enter and leave, both ends of such a chord
 /// are reported at one place (emit_chord says why).

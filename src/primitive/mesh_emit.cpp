@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "primitive/mesh.h"
 #include "primitive/mesh_crossings.h"
@@ -19,25 +20,30 @@ struct Boundary {
   double other_lo = 0, other_hi = 0;  // of a touch: where it may leave; lo and hi: where it may enter
 };
 
-// Candidates in doubt, grouped by the vertices they share.
+// Candidates in doubt, grouped by the edges in doubt that they share.
 class DoubtfulGroups {
  public:
   DoubtfulGroups(const TriangleMesh& mesh, const std::vector<MeshCandidate>& candidates) : root_(candidates.size()) {
     std::iota(root_.begin(), root_.end(), std::size_t{0});
     struct Use {
-      std::uint32_t vertex;
+      std::uint32_t low, high;
       std::size_t candidate;
     };
     std::vector<Use> uses;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (candidates[i].is_certain) continue;
-      for (const std::uint32_t v : mesh.triangles[candidates[i].triangle]) uses.push_back({v, i});
+      const TriangleMesh::Corners& corners = mesh.triangles[candidates[i].triangle];
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!candidates[i].is_doubtful[k]) continue;
+        const std::uint32_t a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
+        uses.push_back({std::min(a, b), std::max(a, b), i});
+      }
     }
     std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
-      return a.vertex != b.vertex ? a.vertex < b.vertex : a.candidate < b.candidate;
+      return std::tie(a.low, a.high, a.candidate) < std::tie(b.low, b.high, b.candidate);
     });
     for (std::size_t i = 1; i < uses.size(); ++i) {
-      if (uses[i].vertex == uses[i - 1].vertex) root_[find(uses[i].candidate)] = find(uses[i - 1].candidate);
+      if (std::tie(uses[i].low, uses[i].high) != std::tie(uses[i - 1].low, uses[i - 1].high)) continue;
+      root_[find(uses[i].candidate)] = find(uses[i - 1].candidate);
     }
   }
 

@@ -88,6 +88,27 @@ TEST(Mesh, OverlappingPartsAreOneSolid) {
             4u);
 }
 
+// A line in the top of a box that lies within another one from the same base, and through the middle of the other's
+// faces: what is in doubt of the one says nothing of the other.
+TEST(Mesh, ALineInAFaceOfAPartCrossesThePartAround) {
+  TriangleMesh mesh = meshes::box({0, 0, 0}, {1, 1, 1});
+  const TriangleMesh around = meshes::box({0, 0, 0}, {1, 1, 2});
+  for (std::uint32_t v = 4; v < 8; ++v) mesh.vertices.push_back(around.vertices[v]);
+  for (const auto& corners : around.triangles) {
+    const auto welded = [](std::uint32_t v) { return v < 4 ? v : v + 4; };
+    mesh.triangles.push_back({welded(corners[0]), welded(corners[1]), welded(corners[2])});
+  }
+  const Solid solid(std::move(mesh));
+  for (const double y : {0.25, 0.5, 0.75}) {
+    const Spans out = solid.cross({-5, y, 1}, {1, 0, 0});
+    ASSERT_GE(out.size(), 2u) << y;
+    EXPECT_NEAR(out.front().t, 5, 1e-9) << y;
+    EXPECT_LE(out.front().bound, 1e-9) << y;
+    EXPECT_NEAR(out.back().t, 6, 1e-9) << y;
+    EXPECT_LE(out.back().bound, 1e-9) << y;
+  }
+}
+
 TEST(Mesh, AHullIsASurface) {
   TriangleMesh open = meshes::box({0, 0, 0}, {1, 1, 1});
   open.triangles.pop_back();
