@@ -110,6 +110,7 @@ class Search {
     const auto view_a = FlatView::of(a), view_b = FlatView::of(b);
     // A triangle without area bounds nothing.
     if (!view_a || !view_b) return std::nullopt;
+    if (in_one_plane && are_apart(a, b, *view_a)) return std::nullopt;
     if (in_one_plane && view_a->turn(a[0], a[1], a[2]) == view_a->turn(b[0], b[1], b[2]) && overlap(a, b, *view_a)) {
       return common_place(std::span<const Vec3>(b), a);
     }

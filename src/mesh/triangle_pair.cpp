@@ -28,6 +28,20 @@ bool edge_separates(const Triangle& t, std::span<const Vec3> points, const FlatV
   return false;
 }
 
+bool edge_keeps_apart(const Triangle& t, const Triangle& other, const FlatView& view) {
+  const int turn = view.turn(t[0], t[1], t[2]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    int within = 0, on_line = 0;
+    for (const Vec3& p : other) {
+      const int side = view.turn(t[i], t[(i + 1) % 3], p);
+      within += side == turn;
+      on_line += side == 0;
+    }
+    if (within == 0 && on_line <= 1) return true;
+  }
+  return false;
+}
+
 // Turns the corners so that the first is alone on its side of the other triangle's plane.
 // @return its side
 int put_lone_corner_first(Triangle& t, Sides sides) {
@@ -71,6 +85,10 @@ bool pass_through(const Triangle& a, const Triangle& b, const Sides& of_b, const
   if (q_side < 0) std::swap(p[1], p[2]);
   // On the line that both planes have in common each triangle has an interval; each begins before the other ends.
   return orientation(p[0], p[1], q[0], q[1]) > 0 && orientation(p[0], p[2], q[2], q[0]) > 0;
+}
+
+bool are_apart(const Triangle& a, const Triangle& b, const FlatView& view) {
+  return edge_keeps_apart(a, b, view) || edge_keeps_apart(b, a, view);
 }
 
 bool overlap(const Triangle& a, const Triangle& b, const FlatView& view) {

@@ -38,6 +38,9 @@ class FlatView {
 /// @param of_a  where those of a lie by b
 bool pass_through(const Triangle& a, const Triangle& b, const Sides& of_b, const Sides& of_a);
 
+/// Whether a line along an edge of one of two triangles in one plane has the other beyond it, or on it in a point.
+bool are_apart(const Triangle& a, const Triangle& b, const FlatView& view);
+
 /// Whether the insides of two triangles in one plane overlap.
 bool overlap(const Triangle& a, const Triangle& b, const FlatView& view);
 
