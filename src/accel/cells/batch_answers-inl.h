@@ -9,6 +9,7 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "accel/cells/ray_batch-inl.h"
@@ -48,12 +49,18 @@ struct BatchFindings {
 /// Gives what was found its last bits.
 class BatchAnswers {
  public:
-  BatchAnswers(const CellTree& tree, const RayBatch& batch, const BatchFindings& findings)
-      : cells_(tree), rays_(batch), found_(findings) {}
+  /// @param together  the scene's tolerance over twice the resolution
+  BatchAnswers(const CellTree& tree, double together, const RayBatch& batch, const BatchFindings& findings)
+      : cells_(tree), together_(together), rays_(batch), found_(findings) {}
 
-  void Write(std::span<CellAnswer> answers, SingleTracer& single, TraversalStatistics& statistics) const {
+  void Write(std::span<CellAnswer> answers, SingleTracer& single, std::vector<Run>& runs,
+             TraversalStatistics& statistics) const {
     std::uint64_t finished = 0;
-    if (single.wanted() != Wanted::occlusion) finished = FinishTogether(answers);
+    if (single.wanted() != Wanted::occlusion) {
+      finished = FinishTogether(answers);
+      const std::uint64_t groups = Groups();
+      if (groups != 0) finished |= FinishGroups(groups, single.wanted() == Wanted::hit, runs, answers);
+    }
     for (std::size_t i = 0; i < rays_.count; ++i) {
       if ((finished >> i & 1) == 0) Answer(i, answers[i], single, statistics);
     }
@@ -63,13 +70,13 @@ class BatchAnswers {
   using D = RayBatch::D;
   static constexpr std::size_t double_lanes = RayBatch::double_lanes;
   static constexpr std::size_t kinds = static_cast<std::size_t>(ShapeKind::cylinder) + 1;
+  // Where fewer share a leaf, or a cell, it is not worth a vector of their own (by trial on the bench).
+  static constexpr int least_neighbours = 3;
 
   // SingleTracer::Finish for rays that do not start on the leaf that they meet: neighbours that meet the same one, and
   // then those that meet leaves of one kind.
   // @return the rays whose answers are complete
   HWY_NOINLINE std::uint64_t FinishTogether(std::span<CellAnswer> answers) const {
-    // Where fewer share a leaf it is not worth a vector of their own (by trial on the bench).
-    constexpr int least_neighbours = 3;
     std::uint64_t finished = 0;
     std::array<std::uint64_t, kinds> rest{};
     for (std::size_t at = 0; at < rays_.count; at += double_lanes) {
@@ -97,6 +104,70 @@ class BatchAnswers {
       while (rest[kind] != 0) finished |= FinishSome(static_cast<ShapeKind>(kind), rest[kind], answers);
     }
     return finished;
+  }
+
+  // Rays at whose boundary several faces coincide, a bit each.
+  std::uint64_t Groups() const {
+    std::uint64_t rays = 0;
+    for (std::size_t i = 0; i < rays_.count; ++i) {
+      const bool is_group = found_.cell[i] != BatchFindings::none && (found_.flags[i] & BatchFindings::group) != 0;
+      rays |= static_cast<std::uint64_t>(is_group) << i;
+    }
+    return rays & ~found_.unsure;
+  }
+
+  // SingleTracer::FinishGroup for neighbours that meet the same cell, and do not start there.
+  HWY_NOINLINE std::uint64_t FinishGroups(std::uint64_t groups, bool wants_faces, std::vector<Run>& runs,
+                                          std::span<CellAnswer> answers) const {
+    std::uint64_t finished = 0;
+    for (std::size_t at = 0; at < rays_.count; at += double_lanes) {
+      std::uint32_t left = static_cast<std::uint32_t>(groups >> at) & ((1U << double_lanes) - 1);
+      while (left != 0) {
+        const std::uint32_t cell = found_.cell[at + static_cast<std::size_t>(std::countr_zero(left))];
+        std::uint32_t same = 0;
+        for (std::uint32_t bits = left; bits != 0; bits &= bits - 1) {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+          same |= static_cast<std::uint32_t>(found_.cell[at + lane] == cell) << lane;
+        }
+        left &= ~same;
+        if (std::popcount(same) < least_neighbours) continue;
+        finished |= FinishGroup(at, cells_.cells[cell], same, wants_faces, runs, answers);
+      }
+    }
+    return finished;
+  }
+
+  std::uint64_t FinishGroup(std::size_t at, const Cell& cell, std::uint32_t lanes, bool wants_faces,
+                            std::vector<Run>& runs, std::span<CellAnswer> answers) const {
+    const D d;
+    const RayLanes<D> rays = Rays([&](const double* values) { return hn::Load(d, values + at); });
+    const auto length = hn::Load(d, rays_.length + at);
+    CellChords<double_lanes> chords;
+    for (std::uint32_t i = 0; i < cell.leaf_count; ++i) {
+      const ShapeRef shape = cells_.shapes.of_leaf[cell.leaves[i].get()];
+      if (shape.kind() == ShapeKind::general) return 0;
+      const auto chord = FindChord(d, rays, cells_.shapes, shape, -1, cells_.scale.reach, length);
+      lanes &= ~RayBatch::Bits(chord.unsure);
+      chords.Put(d, i, chord);
+    }
+    std::uint64_t done = 0;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      const std::size_t i = at + lane;
+      const RayQuery& query = rays_.queries[i];
+      const double near = rays_.near[i], t = found_.t[i] + rays_.start[i];
+      const auto leaves = std::span(cell.leaves).first(cell.leaf_count);
+      const bool starts_here = std::ranges::any_of(leaves, [&](LeafId leaf) { return start_face(query, leaf) >= 0; });
+      if (starts_here || !(t - 2 * near > near)) continue;
+      CellAnswer& answer = answers[i];
+      answer = CellAnswer{};
+      const CellStretch stretch{t - 2 * near, t + 2 * near, 0.5 * near, together_ * near, wants_faces};
+      if (MeetChords(cell, chords, lane, stretch, runs, answer) != Outcome::met) continue;
+      answer.kind = answer.t < query.t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
+      answer.cell = found_.cell[i];
+      done |= std::uint64_t{1} << i;
+    }
+    return done;
   }
 
   bool IsSimple(std::size_t i) const {
@@ -211,6 +282,7 @@ class BatchAnswers {
   }
 
   const CellTree& cells_;
+  const double together_;
   const RayBatch& rays_;
   const BatchFindings& found_;
 };

@@ -39,14 +39,14 @@ HWY_INLINE void Prefetch(std::span<const RayQuery> queries) {
 }
 
 // A function of its own, for what it keeps on the stack would be in the way of single rays.
-HWY_NOINLINE void TraceInBatches(const CellTree& cells, double tolerance, SingleTracer& single,
+HWY_NOINLINE void TraceInBatches(const CellTree& cells, double tolerance, SingleTracer& single, std::vector<Run>& runs,
                                  std::span<const RayQuery> queries, std::span<CellAnswer> answers,
                                  TraversalStatistics& statistics) {
   RayBatch rays;
   BatchFindings found;
   BlockTracer block(cells, tolerance, rays, found);
   StreamTracer stream(cells, tolerance, rays, found);
-  const BatchAnswers finisher(cells, rays, found);
+  const BatchAnswers finisher(cells, tolerance / (2 * cells.scale.resolution), rays, found);
   const bool any_will_do = single.wanted() == Wanted::occlusion;
   for (std::size_t begin = 0; begin < queries.size(); begin += RayBatch::most_rays) {
     const std::size_t count = std::min(RayBatch::most_rays, queries.size() - begin);
@@ -58,7 +58,7 @@ HWY_NOINLINE void TraceInBatches(const CellTree& cells, double tolerance, Single
     const bool is_block = count >= least_batch && block.Begin();
     const std::uint64_t left = is_block ? block.Trace(any_will_do, statistics[queries[begin].kind]) : rays.in_scene();
     if (left != 0) stream.Trace(left, statistics);
-    finisher.Write(answers.subspan(begin, count), single, statistics);
+    finisher.Write(answers.subspan(begin, count), single, runs, statistics);
   }
 }
 
@@ -69,7 +69,7 @@ void TraceRays(const CellTree& cells, const CsgTree& tree, std::span<const RayQu
   if (queries.size() < least_batch) {
     TraceOneByOne(single, queries, answers, statistics);
   } else {
-    TraceInBatches(cells, tree.tolerance.distance, single, queries, answers, statistics);
+    TraceInBatches(cells, tree.tolerance.distance, single, scratch.runs, queries, answers, statistics);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -65,27 +66,32 @@ struct CrossingGroup {
     return ends[0];
   }
 
-  /// The first leaf whose bit alone changes the value right before the run or right after it (Classifier).
-  const End& shown(std::uint64_t table, std::uint32_t after) const {
-    std::uint32_t state = before(after), begin = state, end = state;
-    bool changed = false;
-    for (std::uint32_t k = 0; k < size; ++k) {
-      const std::uint32_t crossed = state ^ 1U << ends[k].place;
-      if ((table >> crossed & 1) != (table >> state & 1)) {
-        if (!changed) begin = state;
-        changed = true;
-        end = crossed;
+  /// The places of the leaves whose bits alone change the value before all of them or behind all of them, a bit each.
+  std::uint32_t faces(std::uint64_t table, std::uint32_t after) const {
+    std::uint32_t places = 0;
+    for (const std::uint32_t state : {before(after), after}) {
+      const std::uint64_t value = table >> state & 1;
+      for (std::uint32_t k = 0; k < size; ++k) {
+        const std::uint32_t bit = 1U << ends[k].place;
+        if ((table >> (state ^ bit) & 1) != value) places |= bit;
       }
-      state = crossed;
     }
-    const End* shown = nullptr;
+    return places;
+  }
+
+  /// Whether the leaf at a place is entered; it is one of them.
+  bool enters(std::uint32_t place) const {
+    std::uint32_t k = 0;
+    while (ends[k].place != place) ++k;
+    return ends[k].entering;
+  }
+
+  /// What shows: the first leaf of `faces`; without any the first change.
+  const End& shown(std::uint64_t table, std::uint32_t after, std::uint32_t faces) const {
     for (std::uint32_t k = 0; k < size; ++k) {
-      const std::uint32_t bit = 1U << ends[k].place;
-      const bool alone =
-          (table >> (begin ^ bit) & 1) != (table >> begin & 1) || (table >> (end ^ bit) & 1) != (table >> end & 1);
-      if (alone && (shown == nullptr || ends[k].place < shown->place)) shown = &ends[k];
+      if (faces != 0 && ends[k].place == static_cast<std::uint32_t>(std::countr_zero(faces))) return ends[k];
     }
-    return shown != nullptr ? *shown : first_change(table, after);
+    return first_change(table, after);
   }
 
  private:

@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
+
 #include "accel/cells/cell_trace.h"
 #include "accel/cells/chord-inl.h"
 #include "accel/cells/crossing_group.h"
@@ -27,6 +29,94 @@ enum class Outcome { passed, met, unsure };
 struct RayScale {
   double square = 1, inverse_square = 1, length = 1;
 };
+
+/// The exact chords of a cell's leaves, by place, one ray a lane; infinite where a leaf is not met.
+template <std::size_t lanes>
+struct CellChords {
+  HWY_ALIGN double enter[Cell::most_tabled][lanes];
+  HWY_ALIGN double leave[Cell::most_tabled][lanes];
+  HWY_ALIGN double enter_face[Cell::most_tabled][lanes];
+  HWY_ALIGN double leave_face[Cell::most_tabled][lanes];
+
+  template <class D>
+  HWY_INLINE void Put(D d, std::uint32_t place, const ChordLanes<D>& chord) {
+    const auto never = hn::Set(d, std::numeric_limits<double>::infinity());
+    hn::Store(hn::IfThenElse(chord.hit, chord.enter, never), d, enter[place]);
+    hn::Store(hn::IfThenElse(chord.hit, chord.leave, never), d, leave[place]);
+    hn::Store(chord.enter_face, d, enter_face[place]);
+    hn::Store(chord.leave_face, d, leave_face[place]);
+  }
+};
+
+/// What is asked of a ray in a cell. The resolution and the scene's tolerance are those along the ray.
+struct CellStretch {
+  double t_in, t_out, resolution, together;
+  bool wants_faces;  ///< whether to keep all faces that coincide, as the classifier would
+};
+
+/// The first boundary of the ray in a lane, several faces of which may coincide.
+template <std::size_t lanes>
+Outcome MeetChords(const Cell& cell, const CellChords<lanes>& chords, std::size_t lane, const CellStretch& stretch,
+                   std::vector<Run>& runs, CellAnswer& answer) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const double near = 2 * stretch.resolution;
+  double enter[Cell::most_tabled], leave[Cell::most_tabled], next[Cell::most_tabled];
+  std::uint32_t state = 0;
+  const std::uint32_t count = cell.leaf_count;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    enter[i] = chords.enter[i][lane];
+    leave[i] = chords.leave[i][lane];
+    const bool inside = enter[i] <= stretch.t_in && stretch.t_in < leave[i];
+    state |= static_cast<std::uint32_t>(inside) << i;
+    next[i] = inside ? leave[i] : enter[i] > stretch.t_in ? enter[i] : never;
+  }
+  const std::uint64_t table = cell.table;
+  const std::uint64_t before = table >> state & 1;
+  for (;;) {
+    double t = next[0];
+    for (std::uint32_t i = 1; i < count; ++i) t = std::min(t, next[i]);
+    if (!(t <= stretch.t_out)) return Outcome::passed;
+    // Crossings at the same double are one step: a change that is undone there is none.
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (next[i] != t) continue;
+      state ^= 1U << i;
+      next[i] = (state >> i & 1) != 0 ? leave[i] : never;
+    }
+    if ((table >> state & 1) == before) continue;
+    CrossingGroup group;
+    if (!group.collect(count, enter, leave, t, near, stretch.together)) return Outcome::unsure;
+    const std::uint32_t after = group.after(state);
+    if ((table >> after & 1) == before) {
+      group.skip(leave, next);
+      state = after;
+      continue;
+    }
+    const std::uint32_t faces = group.faces(table, after);
+    const CrossingGroup::End shown = group.shown(table, after, faces);
+    const auto face_at = [&](std::uint32_t place, bool entering) {
+      const double face = (entering ? chords.enter_face : chords.leave_face)[place][lane];
+      return LeafFace{cell.leaves[place], static_cast<std::uint32_t>(face)};
+    };
+    answer.t = group.first_change(table, after).t;
+    answer.leaf_entering = shown.entering;
+    answer.before = before != 0;
+    answer.surface = face_at(shown.place, shown.entering);
+    if (!stretch.wants_faces || std::popcount(faces) < 2) return Outcome::met;
+    answer.run = static_cast<std::uint32_t>(runs.size());
+    Run& run = runs.emplace_back();
+    run.t = answer.t;
+    run.bound = stretch.resolution;
+    run.surface = answer.surface;
+    run.leaf_entering = answer.leaf_entering;
+    run.before = answer.before ? medium_opaque : medium_outside;
+    run.after = answer.before ? medium_outside : medium_opaque;
+    for (std::uint32_t left = faces; left != 0; left &= left - 1) {
+      const auto place = static_cast<std::uint32_t>(std::countr_zero(left));
+      run.faces.push_back(face_at(place, group.enters(place)));
+    }
+    return Outcome::met;
+  }
+}
 
 /// Follows one ray through one cell after another, exactly. Here t is that of the ray as it was asked.
 class ExactCell {
@@ -79,59 +169,22 @@ class ExactCell {
   }
 
   /// The first boundary in a cell whose leaves all have chords, several of which coincide there.
-  HWY_NOINLINE Outcome Meet(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
+  /// @param wants_faces  whether to keep all faces that do, as the classifier would
+  HWY_NOINLINE Outcome Meet(const Cell& cell, double t_in, double t_out, bool wants_faces, CellAnswer& answer) {
     const double near = 2 * resolution_;
-    constexpr double never = std::numeric_limits<double>::infinity();
-    double enter[Cell::most_tabled], leave[Cell::most_tabled], next[Cell::most_tabled];
-    double enter_face[Cell::most_tabled], leave_face[Cell::most_tabled];
     const One one;
-    std::uint32_t state = 0;
-    const std::uint32_t count = cell.leaf_count;
-    for (std::uint32_t i = 0; i < count; ++i) {
+    CellChords<1> chords;
+    for (std::uint32_t i = 0; i < cell.leaf_count; ++i) {
       const ShapeRef shape = cells_.shapes.of_leaf[cell.leaves[i].get()];
       if (shape.kind() == ShapeKind::general) return Outcome::unsure;
       const int on_face = start_face(*query_, cell.leaves[i]);
       const ChordLanes<One> chord = Chord(shape, on_face);
       if (!hn::AllFalse(one, chord.unsure)) return Outcome::unsure;
-      const bool hit = !hn::AllFalse(one, chord.hit);
-      enter[i] = hit ? hn::GetLane(chord.enter) : never;
-      leave[i] = hit ? hn::GetLane(chord.leave) : never;
-      enter_face[i] = hn::GetLane(chord.enter_face);
-      leave_face[i] = hn::GetLane(chord.leave_face);
-      if (t_in <= near && !StartIsClear(enter[i], leave[i], on_face, near)) return Outcome::unsure;
-      const bool inside = enter[i] <= t_in && t_in < leave[i];
-      state |= static_cast<std::uint32_t>(inside) << i;
-      next[i] = inside ? leave[i] : enter[i] > t_in ? enter[i] : never;
+      chords.Put(one, i, chord);
+      const bool is_clear = t_in > near || StartIsClear(chords.enter[i][0], chords.leave[i][0], on_face, near);
+      if (!is_clear) return Outcome::unsure;
     }
-    const std::uint64_t table = cell.table;
-    const std::uint64_t before = table >> state & 1;
-    for (;;) {
-      double t = next[0];
-      for (std::uint32_t i = 1; i < count; ++i) t = std::min(t, next[i]);
-      if (!(t <= t_out)) return Outcome::passed;
-      // Crossings at the same double are one step: a change that is undone there is none.
-      for (std::uint32_t i = 0; i < count; ++i) {
-        if (next[i] != t) continue;
-        state ^= 1U << i;
-        next[i] = (state >> i & 1) != 0 ? leave[i] : never;
-      }
-      if ((table >> state & 1) == before) continue;
-      CrossingGroup group;
-      if (!group.collect(count, enter, leave, t, near, together_)) return Outcome::unsure;
-      const std::uint32_t after = group.after(state);
-      if ((table >> after & 1) == before) {
-        group.skip(leave, next);
-        state = after;
-        continue;
-      }
-      const CrossingGroup::End shown = group.shown(table, after);
-      answer.t = group.first_change(table, after).t;
-      answer.leaf_entering = shown.entering;
-      answer.before = before != 0;
-      answer.surface = {cell.leaves[shown.place],
-                        static_cast<std::uint32_t>(shown.entering ? enter_face[shown.place] : leave_face[shown.place])};
-      return Outcome::met;
-    }
+    return MeetChords(cell, chords, 0, {t_in, t_out, resolution_, together_, wants_faces}, scratch_.runs, answer);
   }
 
   /// Has the classifier follow the ray through the cell, with the bounds of all crossings.

@@ -159,8 +159,7 @@ class SingleTracer {
   // What the exact arithmetic says of a cell. Here t is that of the query.
   HWY_NOINLINE Outcome Ask(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
     Outcome outcome = Outcome::unsure;
-    const bool has_chords = !cell.extended && wanted_ != Wanted::hit;
-    if (has_chords) outcome = exact_.Meet(cell, t_in, t_out, answer);
+    if (!cell.extended) outcome = exact_.Meet(cell, t_in, t_out, wanted_ == Wanted::hit, answer);
     if (outcome == Outcome::unsure) outcome = exact_.Resolve(cell, t_in, t_out, answer);
     return outcome;
   }
