@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -56,7 +57,7 @@ struct Torus {
       const TorusQuartic quartic(R, r, ray, moved, scale);
       find_roots(quartic, -1, 1, roots);
     }
-    emit(roots, moved, scale, ray.on_face >= 0, out);
+    emit(ray, roots, moved, scale, out);
   }
 
   Region classify(const LocalBox& box) const;
@@ -111,7 +112,9 @@ struct Torus {
 
   // The line comes from outside, so that crossings enter and leave in turn. The start of a ray on the surface is one
   // more crossing among the roots of the deflated quartic.
-  static void emit(const ShortList<CrossingRoot, 8>& roots, double moved, double scale, bool from_surface, Spans& out) {
+  void emit(const LocalRay& ray, const ShortList<CrossingRoot, 8>& roots, double moved, double scale,
+            Spans& out) const {
+    const bool from_surface = ray.on_face >= 0;
     if (roots.size() % 2 != (from_surface ? 1U : 0U)) return;
     bool entering = true;
     bool start_is_due = from_surface;
@@ -120,15 +123,33 @@ struct Torus {
       out.push_back({end.t, bound, 0, entering, false});
       entering = !entering;
     };
-    for (const CrossingRoot& root : roots) {
+    for (std::size_t i = 0; i < roots.size(); ++i) {
+      const CrossingRoot& root = roots[i];
       if (start_is_due && root.t >= 0) {
         report({});
         start_is_due = false;
       }
-      const BoundedRoot scaled{root.t * scale, root.lo * scale, root.hi * scale};
-      report(lateral_end(scaled, moved, 0));
+      End end = lateral_end({root.t * scale, root.lo * scale, root.hi * scale}, moved, 0);
+      if (!from_surface) {
+        double gap = std::numeric_limits<double>::infinity();  // to the other roots
+        if (i > 0) gap = scale * (root.t - roots[i - 1].t);
+        if (i + 1 < roots.size()) gap = std::min(gap, scale * (roots[i + 1].t - root.t));
+        settle(ray, root.rising, gap, end);
+      }
+      report(end);
     }
     if (start_is_due) report({});
+  }
+
+  // Gives a crossing the t that others find, where it certainly is the same root that they do, and the crossings stay
+  // in their order. The interval still holds the exact one.
+  void settle(const LocalRay& ray, bool rising, double gap, End& end) const {
+    const SettledTorusRoot root(R, r, ray, end.t);
+    const bool is_same = root.rising == rising && std::fabs(root.t - end.t) <= std::min(root.step / 8, gap / 4);
+    if (!root.settled || !is_same) return;
+    end.t = root.t;
+    end.lo = std::min(end.lo, end.t);
+    end.hi = std::max(end.hi, end.t);
   }
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "math/polynomial.h"
 #include "primitive/local_ray.h"
@@ -72,6 +74,50 @@ class TorusQuartic {
   double input_error_ = 0, w_rounding_ = 0;
   double w0_error_ = 0, w1_error_ = 0, w2_error_ = 0;
   Vec3 place_error_, direction_error_;
+};
+
+/// A root of TorusQuartic that comes out the same, to the last bit, from whatever place near it the search begins: by
+/// Newton's method from the multiple of a step that is nearest to that place, on the quartic expanded there. So whoever
+/// knows a root roughly, and not too near to the middle between two multiples, finds the double that spans() reports.
+struct SettledTorusRoot {
+  static constexpr int newton_steps = 5;
+  /// Against the radius of the tube over |direction|, of which the largest power of two no greater counts.
+  static constexpr double relative_step = 0x1p-6;
+  /// Against the step: how far Newton's last step may go.
+  static constexpr double relative_rest = 0x1p-30;
+  /// Against 2 r |direction|, which is the slope of a line through the middle of the tube.
+  static constexpr double relative_slope = 0x1p-7;
+
+  double t = 0;
+  double step = 0;
+  bool settled = false;  ///< the method came to rest, at a root that is no double one
+  bool rising = false;
+
+  SettledTorusRoot(double R, double r, const LocalRay& ray, double near) {
+    const Vec3& d = ray.direction;
+    const double square = dot(d, d), speed = std::sqrt(square);
+    step = power_of_two_below(r / speed) * relative_step;
+    const double from = std::nearbyint(near * (1 / step)) * step;
+    const Vec3 p = ray.origin + from * d;
+    const double w0 = (dot(p, p) - (R * R + r * r)) / (2 * R), w1 = dot(p, d) / R, w2 = square / (2 * R);
+    const double z0 = p.z, z1 = d.z;
+    double s = 0, last = 0, slope = 0;
+    for (int i = 0; i < newton_steps; ++i) {
+      const double w = (w2 * s + w1) * s + w0, z = z0 + z1 * s;
+      slope = 2 * (w * (w1 + 2 * w2 * s) + z * z1);
+      last = (w * w + z * z - r * r) / slope;
+      s = s - last;
+    }
+    t = from + s;
+    rising = slope > 0;
+    settled = std::fabs(last) <= step * relative_rest && std::fabs(s) <= step &&
+              std::fabs(slope) >= 2 * relative_slope * (r * speed);
+  }
+
+ private:
+  static double power_of_two_below(double x) {
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & 0x7ff0000000000000);
+  }
 };
 
 /// The same for a line that is known to lie on the torus at s = 0: the constant term is zero, and s is divided out.

@@ -145,7 +145,7 @@ class BatchAnswers {
     CellChords<double_lanes> chords;
     for (std::uint32_t i = 0; i < cell.leaf_count; ++i) {
       const ShapeRef shape = cells_.shapes.of_leaf[cell.leaves[i].get()];
-      if (shape.kind() == ShapeKind::general) return 0;
+      if (!has_chord(shape.kind())) return 0;
       const auto chord = FindChord(d, rays, cells_.shapes, shape, -1, cells_.scale.reach, length);
       lanes &= ~RayBatch::Bits(chord.unsure);
       chords.Put(d, i, chord);
@@ -182,9 +182,10 @@ class BatchAnswers {
     std::array<std::uint8_t, double_lanes> places;
     for (std::size_t lane = 0; lane < double_lanes; ++lane) places[lane] = static_cast<std::uint8_t>(at + lane);
     const auto take = [&](const double* values) { return hn::Load(d, values + at); };
-    const auto chord =
-        FindChord(d, Rays(take), cells_.shapes, shape, -1, cells_.scale.reach, hn::Load(d, rays_.length + at));
-    return Complete(chord, places, lanes, answers);
+    const auto take_shape = [&]<class Shape>(const std::vector<Shape>& list) {
+      return SharedShape<D, Shape>(list[shape.index()]);
+    };
+    return Complete(FindCrossings(shape.kind(), take, take_shape, places), places, lanes, answers);
   }
 
   // @param left  rays that meet leaves of the kind; those that are dealt with are taken out
@@ -212,9 +213,21 @@ class BatchAnswers {
       }
       return shapes;
     };
-    const auto chord =
-        FindChord(d, Rays(take), cells_.shapes, kind, take_shapes, -1, cells_.scale.reach, take(rays_.length));
-    return Complete(chord, places, lanes, answers);
+    return Complete(FindCrossings(kind, take, take_shapes, places), places, lanes, answers);
+  }
+
+  // The chords of the rays at some places; of a torus the crossing that each of them meets, for both ends.
+  template <class Take, class TakeShapes>
+  HWY_INLINE ChordLanes<D> FindCrossings(ShapeKind kind, const Take& take, const TakeShapes& take_shapes,
+                                         const std::array<std::uint8_t, double_lanes>& places) const {
+    const D d;
+    if (kind != ShapeKind::torus) {
+      return FindChord(d, Rays(take), cells_.shapes, kind, take_shapes, -1, cells_.scale.reach, take(rays_.length));
+    }
+    const auto enters = TakeEach(
+        d, [&](std::size_t lane) { return (found_.flags[places[lane]] & BatchFindings::entering) != 0 ? 1.0 : 0.0; });
+    return TorusCrossing(d, Rays(take), take_shapes(cells_.shapes.tori), hn::Add(take(found_.t), take(rays_.start)),
+                         hn::Gt(enters, hn::Zero(d)));
   }
 
   template <class Take>

@@ -333,7 +333,7 @@ HWY_INLINE ChordLanes<D> CylinderChord(D d, const RayLanes<D>& ray, const Lanes&
   return chord;
 }
 
-/// The chord of any shape but a general one.
+/// The chord of any shape that has one.
 /// @param take    called with a list of shapes of one kind: that shape, or those, of it
 /// @param length  of the rays' directions
 template <class D, class Take>
@@ -350,6 +350,7 @@ HWY_INLINE ChordLanes<D> FindChord(D d, const RayLanes<D>& ray, const PlacedShap
       return BoxChord(d, ray, take(shapes.boxes), on_face, reach, length);
     case ShapeKind::cylinder:
       return CylinderChord(d, ray, take(shapes.cylinders), on_face, reach, length);
+    case ShapeKind::torus:
     case ShapeKind::general:
       break;
   }

@@ -14,6 +14,7 @@
 #include "accel/cells/cell_trace.h"
 #include "accel/cells/chord-inl.h"
 #include "accel/cells/crossing_group.h"
+#include "accel/cells/torus_root-inl.h"
 #include "primitive/dispatch.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -147,9 +148,9 @@ class ExactCell {
     const int on_face = start_face(*query_, leaf);
     const ShapeRef shape = cells_.shapes.of_leaf[leaf.get()];
     const double near = 2 * resolution_;
-    if (shape.kind() != ShapeKind::general) {
+    if (has_chord(shape.kind()) || (shape.kind() == ShapeKind::torus && on_face < 0)) {
       const One one;
-      const ChordLanes<One> chord = Chord(shape, on_face);
+      const ChordLanes<One> chord = has_chord(shape.kind()) ? Chord(shape, on_face) : Torus(shape, answer);
       const double t = hn::GetLane(answer.leaf_entering ? chord.enter : chord.leave);
       const bool sure = hn::AllFalse(one, chord.unsure) && !hn::AllFalse(one, chord.hit);
       if (sure && std::fabs(t - answer.t) <= near) {
@@ -176,7 +177,7 @@ class ExactCell {
     CellChords<1> chords;
     for (std::uint32_t i = 0; i < cell.leaf_count; ++i) {
       const ShapeRef shape = cells_.shapes.of_leaf[cell.leaves[i].get()];
-      if (shape.kind() == ShapeKind::general) return Outcome::unsure;
+      if (!has_chord(shape.kind())) return Outcome::unsure;
       const int on_face = start_face(*query_, cell.leaves[i]);
       const ChordLanes<One> chord = Chord(shape, on_face);
       if (!hn::AllFalse(one, chord.unsure)) return Outcome::unsure;
@@ -238,6 +239,13 @@ class ExactCell {
   ChordLanes<One> Chord(ShapeRef shape, int on_face) const {
     const One one;
     return FindChord(one, ray_, cells_.shapes, shape, on_face, cells_.scale.reach, hn::Set(one, length_));
+  }
+
+  ChordLanes<One> Torus(ShapeRef shape, const CellAnswer& answer) const {
+    const One one;
+    const auto all = hn::Eq(hn::Zero(one), hn::Zero(one));
+    return TorusCrossing(one, ray_, SharedShape<One, PlacedTorus>(cells_.shapes.tori[shape.index()]),
+                         hn::Set(one, answer.t), answer.leaf_entering ? all : hn::Not(all));
   }
 
   const Spans& FindSpans(LeafId leaf, int on_face) {

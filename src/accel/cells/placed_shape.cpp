@@ -1,5 +1,6 @@
 #include "accel/cells/placed_shape.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "accel/cells/certainty.h"
@@ -101,6 +102,22 @@ class Placer {
     return {ShapeKind::cylinder, shapes_.cylinders.size() - 1};
   }
 
+  // What is known of a crossing is known within 4 resolutions, which along the ray have to be a small part of the steps
+  // of SettledTorusRoot (an eighth of one), and of the gaps between crossings: where the slope is at least
+  // relative_slope 2 r |d|, and the second derivative at most 16 |d|² (|w'| <= 2 |d|, |w w''| <= 1.5 |d|², |z'| <= |d|
+  // near the surface), they lie r / (2^10 |d|) apart or more. A step is at least half of r relative_step / |d|, and
+  // |d| at most the stretch of the map.
+  ShapeRef add(const Leaf& leaf, const Torus& torus) {
+    const Certainty certainty(leaf, tree_, scale_);
+    const double least_step = torus.r * SettledTorusRoot::relative_step / (2 * certainty.most_stretch());
+    const double least_gap = torus.r * 0x1p-10 / certainty.most_stretch();
+    if (!(4 * scale_.resolution <= std::min(least_step / 8, least_gap / 4))) return {ShapeKind::general, 0};
+    const Placement& p = leaf.placement;
+    shapes_.tori.push_back({array_of(p.world_center()), array_of(p.world_origin()),
+                            rows_of(p.local_from_world_linear()), torus.R, torus.r});
+    return {ShapeKind::torus, shapes_.tori.size() - 1};
+  }
+
   const CsgTree& tree_;
   const CellScale& scale_;
   PlacedShapes& shapes_;
@@ -119,7 +136,8 @@ PlacedShapes PlacedShapes::of(const CsgTree& tree, const CellScale& scale) {
 std::size_t PlacedShapes::memory_bytes() const {
   return of_leaf.size() * sizeof(ShapeRef) + upright_spheres.size() * sizeof(UprightSphere) +
          spheres.size() * sizeof(PlacedSphere) + upright_boxes.size() * sizeof(UprightBox) +
-         boxes.size() * sizeof(PlacedBox) + cylinders.size() * sizeof(PlacedCylinder);
+         boxes.size() * sizeof(PlacedBox) + cylinders.size() * sizeof(PlacedCylinder) +
+         tori.size() * sizeof(PlacedTorus);
 }
 
 }  // namespace tenon::cells

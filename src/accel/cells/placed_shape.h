@@ -12,7 +12,13 @@ namespace tenon::cells {
 
 /// The kinds of leaf whose chord is found without error bounds, by the same operations in the same order as spans(), so
 /// that t is the same double. Every other leaf is `general`: spans() itself.
-enum class ShapeKind : std::uint8_t { general, sphere, upright_sphere, box, upright_box, cylinder };
+///
+/// A torus has no chord, for its crossings may be four; but each of them is found from its neighbourhood.
+enum class ShapeKind : std::uint8_t { general, torus, sphere, upright_sphere, box, upright_box, cylinder };
+
+inline bool has_chord(ShapeKind kind) {
+  return kind > ShapeKind::torus;
+}
 
 /// A leaf by kind, and its place in the list of that kind.
 struct ShapeRef {
@@ -75,6 +81,13 @@ struct alignas(64) PlacedCylinder {
   double start;
 };
 
+struct alignas(64) PlacedTorus {
+  std::array<double, 3> center;
+  std::array<double, 3> origin;
+  std::array<double, 9> map;
+  double major, minor;
+};
+
 /// The leaves of a scene, ready for many rays.
 struct PlacedShapes {
   std::vector<ShapeRef> of_leaf;  ///< by LeafId
@@ -83,6 +96,7 @@ struct PlacedShapes {
   std::vector<UprightBox> upright_boxes;
   std::vector<PlacedBox> boxes;
   std::vector<PlacedCylinder> cylinders;
+  std::vector<PlacedTorus> tori;
 
   static PlacedShapes of(const CsgTree& tree, const CellScale& scale);
   std::size_t memory_bytes() const;
