@@ -67,8 +67,9 @@ void Film::add(int x, int y, const FilmSample& sample) {
   const auto g = static_cast<double>(static_cast<float>(sample.light.g));
   const auto b = static_cast<double>(static_cast<float>(sample.light.b));
   add_three(planes_.light, i, r, g, b);
-  add_three(planes_.squares, i, r * r, g * g, b * b);
   planes_.alpha[i].add(sample.alpha);
+  if (layers_.empty()) return;
+  add_three(planes_.squares, i, r * r, g * g, b * b);
   add_three(planes_.normal, i, sample.normal.x, sample.normal.y, sample.normal.z);
   add_three(planes_.albedo, i, sample.albedo.r, sample.albedo.g, sample.albedo.b);
   if (!planes_.crossings.empty()) planes_.crossings[i] += sample.crossings;

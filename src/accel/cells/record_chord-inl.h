@@ -22,9 +22,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class D, class Record>
 HWY_INLINE Stretch<D> BallStretch(D d, const SceneRays<D>& ray, const Record& r) {
   const auto from = Sub3(ray.origin, Load3(d, r, BallRecord::center));
-  const auto nearest = hn::Neg(hn::Mul(Dot(from, ray.direction), ray.inverse_square));
-  const auto p = MulAdd(nearest, ray.direction, from);
-  const auto square = hn::Sub(r[BallRecord::square], Dot(p, p));
+  const auto nearest = hn::Neg(hn::Mul(FusedDot(from, ray.direction), ray.inverse_square));
+  const auto p = FusedMulAdd(nearest, ray.direction, from);
+  const auto square = hn::Sub(r[BallRecord::square], FusedDot(p, p));
   const auto graze = r[BallRecord::graze];
   const auto half = hn::Sqrt(hn::Mul(hn::Max(square, graze), ray.inverse_square));
   return {hn::Sub(nearest, half), hn::Add(nearest, half), hn::Gt(square, graze), hn::Le(hn::Abs(square), graze)};
@@ -107,14 +107,13 @@ HWY_INLINE void ClipSide(D d, const SceneRays<D>& ray, const Vec3Lanes<D>& o, co
                          std::size_t p, Stretch<D>& s) {
   const auto zero = hn::Zero(d);
   const auto beta = r[p + ProfileRecord::beta], gamma = r[p + ProfileRecord::gamma];
-  const auto across = hn::Add(hn::Mul(v.x, v.x), hn::Mul(v.y, v.y));
-  const auto across_square = hn::Add(hn::Mul(o.x, o.x), hn::Mul(o.y, o.y));
+  const auto across = hn::MulAdd(v.x, v.x, hn::Mul(v.y, v.y));
+  const auto across_square = hn::MulAdd(o.x, o.x, hn::Mul(o.y, o.y));
   const auto gz = hn::Mul(gamma, o.z);
-  const auto a = hn::Sub(across, hn::Mul(hn::Mul(gamma, v.z), v.z));
-  const auto b =
-      hn::Sub(hn::Add(hn::Mul(o.x, v.x), hn::Mul(o.y, v.y)), hn::Mul(hn::Add(hn::Mul(hn::Set(d, 0.5), beta), gz), v.z));
-  const auto c = hn::Sub(across_square, hn::Add(r[p + ProfileRecord::alpha], hn::Mul(hn::Add(beta, gz), o.z)));
-  const auto discriminant = hn::Sub(hn::Mul(b, b), hn::Mul(a, c));
+  const auto a = hn::NegMulAdd(hn::Mul(gamma, v.z), v.z, across);
+  const auto b = hn::NegMulAdd(hn::MulAdd(hn::Set(d, 0.5), beta, gz), v.z, hn::MulAdd(o.x, v.x, hn::Mul(o.y, v.y)));
+  const auto c = hn::Sub(across_square, hn::MulAdd(hn::Add(beta, gz), o.z, r[p + ProfileRecord::alpha]));
+  const auto discriminant = hn::MulSub(b, b, hn::Mul(a, c));
   const auto square = hn::Mul(ray.length, ray.length);
   const auto graze = hn::Mul(r[p + ProfileRecord::graze], square);
   auto unsure = hn::Le(hn::Abs(discriminant), graze);
@@ -206,8 +205,8 @@ HWY_INLINE Stretch<D> ConvexStretch(D d, const SceneRays<D>& ray, const SharedRe
   std::size_t plane = ConvexRecord::planes;
   for (auto left = static_cast<std::size_t>(r.values[ConvexRecord::count]); left > 0; --left) {
     const auto n = Load3(d, r, plane);
-    const auto slope = Dot(n, ray.direction);
-    const auto distance = hn::Sub(r[plane + 3], Dot(n, ray.origin));
+    const auto slope = FusedDot(n, ray.direction);
+    const auto distance = hn::Sub(r[plane + 3], FusedDot(n, ray.origin));
     const auto slowness = Slowness(d, slope);
     const auto t = hn::Mul(distance, slowness);
     const auto leaves = hn::Gt(slowness, zero);  // a slope of -0 has the sign of its inverse

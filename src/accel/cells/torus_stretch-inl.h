@@ -22,11 +22,11 @@ struct TorusLanes {
   hn::Vec<D> w0, w1, w2, z0, z1, r_square;
 
   hn::Vec<D> ValueAndSlope(D d, hn::Vec<D> s, hn::Vec<D>& slope) const {
-    const auto w = hn::Add(hn::Mul(hn::Add(hn::Mul(w2, s), w1), s), w0), z = hn::Add(z0, hn::Mul(z1, s));
+    const auto w = hn::MulAdd(hn::MulAdd(w2, s, w1), s, w0), z = hn::MulAdd(z1, s, z0);
     const auto two = hn::Set(d, 2.0);
-    const auto w_slope = hn::Add(w1, hn::Mul(two, hn::Mul(w2, s)));
-    slope = hn::Mul(two, hn::Add(hn::Mul(w, w_slope), hn::Mul(z, z1)));
-    return hn::Sub(hn::Add(hn::Mul(w, w), hn::Mul(z, z)), r_square);
+    const auto w_slope = hn::MulAdd(two, hn::Mul(w2, s), w1);
+    slope = hn::Mul(two, hn::MulAdd(w, w_slope, hn::Mul(z, z1)));
+    return hn::MulAdd(w, w, hn::MulSub(z, z, r_square));
   }
 
   /// The coefficients of f over [low, low + width] in Bernstein's basis: their signs change at least as often as f has
@@ -89,9 +89,9 @@ HWY_NOINLINE Stretch<D> TorusStretch(D d, const SceneRays<D>& ray, const Record&
   const auto R = r[TorusRecord::major], minor = r[TorusRecord::minor], minor_square = hn::Mul(minor, minor);
   const auto inverse_R = hn::Div(hn::Set(d, 1.0), R), half_inverse_R = hn::Div(hn::Set(d, 0.5), R);
   TorusLanes<D> f;
-  f.w0 = hn::Mul(hn::Sub(Dot(o, o), hn::Add(hn::Mul(R, R), minor_square)), half_inverse_R);
-  f.w1 = hn::Mul(Dot(o, v), inverse_R);
-  f.w2 = hn::Mul(Dot(v, v), half_inverse_R);
+  f.w0 = hn::Mul(hn::Sub(FusedDot(o, o), hn::Add(hn::Mul(R, R), minor_square)), half_inverse_R);
+  f.w1 = hn::Mul(FusedDot(o, v), inverse_R);
+  f.w2 = hn::Mul(FusedDot(v, v), half_inverse_R);
   f.z0 = o.z;
   f.z1 = v.z;
   f.r_square = minor_square;
