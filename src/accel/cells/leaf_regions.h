@@ -19,10 +19,9 @@ struct RegionLeaf {
   };
 
   Box3 bounds;
-  Vec3 center;  ///< of what is round
-  double inner_square =
-      0;  ///< of a radius: what is nearer to the centre, along the round axes, does not keep it outside
-  double outer_square = 0;  ///< what is farther is outside
+  Vec3 center;              ///< of what is round, or a turned box
+  double inner_square = 0;  ///< of a radius: as far as the round axes tell, what lies nearer is inside
+  double outer_square = 0;  ///< and what lies farther is outside. Both infinite for an upright box
   double extent = 0;        ///< how large its features are: the longest edge of its bounds, for a ring across its tube
   float price = 1;          ///< CellCost::of_leaf
   Kind kind = Kind::general;
