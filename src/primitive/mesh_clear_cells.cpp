@@ -81,6 +81,7 @@ void ClearCells::wind(const TriangleMesh& mesh, Walk walk) {
     int winding;
   };
   std::vector<Turn> turns;
+  std::vector<std::uint32_t> met;
   for (int z = 0; z < counts_[2]; ++z) {
     for (int y = 0; y < counts_[1]; ++y) {
       const auto row = windings_.begin() + static_cast<std::ptrdiff_t>(place_of({0, y, z}));
@@ -90,11 +91,16 @@ void ClearCells::wind(const TriangleMesh& mesh, Walk walk) {
       ray.direction = {1, 0, 0};
       const MeshLine line(ray, bounds_);
       turns.clear();
-      walk(line, [&](std::uint32_t triangle) {
+      met.clear();
+      walk(line, [&met](std::uint32_t triangle) { met.push_back(triangle); });
+      // A kd-tree has a triangle in several leaves.
+      std::sort(met.begin(), met.end());
+      met.erase(std::unique(met.begin(), met.end()), met.end());
+      for (const std::uint32_t triangle : met) {
         MeshCandidate c;
-        if (!find_candidate(line, mesh, triangle, c) || !c.is_hit) return;
+        if (!find_candidate(line, mesh, triangle, c) || !c.is_hit) continue;
         turns.push_back({box_of(mesh, triangle).upper.x, -c.sense});
-      });
+      }
       std::sort(turns.begin(), turns.end(), [](const Turn& a, const Turn& b) { return a.behind < b.behind; });
       int winding = 0;
       std::size_t passed = 0;

@@ -273,6 +273,31 @@ TEST(Mesh, CrossingsFromAStartOnAreThoseOfTheWholeLine) {
   EXPECT_GT(shortened, 5000);
 }
 
+// A kd-tree meets a triangle in several leaves, and each turns the winding number of what lies behind it once.
+TEST(Mesh, FromAStartOnTheKdTreeFindsWhatTheHierarchyFinds) {
+  Random random(9);
+  Mesh by_boxes, by_planes;
+  TriangleMesh mesh = meshes::star(5, [&](const Vec3&) { return random.uniform(0.8, 1); });
+  by_boxes.mesh = meshes::share(mesh);
+  mesh.local = MeshStructure::kd;
+  by_planes.mesh = meshes::share(std::move(mesh));
+  by_boxes.prepare();
+  by_planes.prepare();
+  int crossed = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    LocalRay ray;
+    ray.origin = 1.1 * random.in_cube();
+    ray.direction = random.direction();
+    Spans expected, found;
+    by_boxes.spans_from(ray, 0, expected);
+    by_planes.spans_from(ray, 0, found);
+    ASSERT_EQ(expected.size(), found.size()) << describe(ray.origin, ray.direction);
+    for (std::size_t k = 0; k < found.size(); ++k) EXPECT_EQ(expected[k].t, found[k].t);
+    crossed += static_cast<int>(found.size());
+  }
+  EXPECT_GT(crossed, 10'000);
+}
+
 TEST(EdgeSign, IsExactAndOfOppositeSignBackwards) {
   Random random(2);
   int ties = 0;
