@@ -45,14 +45,15 @@ CommandBody add_denoise_command(CLI::App& command) {
   const auto arguments = std::make_shared<DenoiseCommand>();
   command
       .add_option("PICTURE", arguments->path,
-                  "An EXR picture with the layers Z, N, albedo, ids and variance; - reads standard input")
+                  "An EXR picture with the layers Z, N, albedo, ids, samples and variance; - reads standard input")
       ->type_name("")
       ->required();
   arguments->picture.add_to(command);
   command.add_flag("-q,--quiet", arguments->quiet, "Show no progress");
   command.footer(
-      "The edge-avoiding a-trous wavelet filter (Dammertz and others, 2010), guided by the variance of the samples\n"
-      "(Schied and others, 2017). Pixels whose ids differ are never mixed. All other channels stay as they are.");
+      "The edge-avoiding a-trous wavelet filter (Dammertz and others, 2010), guided by the error that halves of the\n"
+      "samples tell of. What it changes beyond that is taken back. Pixels whose ids differ are never mixed. All other\n"
+      "channels stay as they are.");
   return [arguments] { return arguments->run(); };
 }
 

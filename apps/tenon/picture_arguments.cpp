@@ -79,9 +79,10 @@ void PictureArguments::add_layers_to(CLI::App& command) {
 }
 
 void PictureArguments::add_denoise_to(CLI::App& command) {
-  command.add_flag("--denoise", denoise,
-                   "Take the noise out, guided by albedo, normals, depth, ids and variance (a-trous wavelets); needs 2 "
-                   "samples a pixel at least");
+  command.add_flag(
+      "--denoise", denoise,
+      "Take the noise out, guided by albedo, normals, depth, ids and what halves of the samples tell of it "
+      "(a-trous wavelets); needs 2 samples a pixel at least");
 }
 
 Result<PicturePlan> plan_picture(const PictureArguments& arguments, const std::string& default_output) {

@@ -60,7 +60,8 @@ Result<std::string> encode(const FilmPart& part, const PicturePlan& plan, int th
   Picture picture = is_exr ? part_picture(part) : film_picture(part.film, {}, 32);
   picture.notes = is_exr ? picture.notes : part.notes;
   if (plan.denoise) {
-    if (!part.film.layers().contains(denoise_layers())) {
+    // How many samples a pixel has, every film knows.
+    if (!part.film.layers().contains(denoise_layers().remove(Layer::samples))) {
       return Error{
           ErrorKind::input, "the pictures lack the layers that denoising goes by; render them with --denoise", {}};
     }

@@ -1,6 +1,7 @@
 #include "tenon/film/film.h"
 
 #include <cassert>
+#include <cmath>
 #include <string_view>
 
 namespace tenon {
@@ -19,7 +20,11 @@ FilmPlanes planes_for(std::size_t pixels, const Layers& layers) {
   planes.samples.resize(pixels);
   resize(planes.light, pixels);
   planes.alpha.resize(pixels);
-  if (layers.has(Layer::variance)) resize(planes.squares, pixels);
+  if (layers.has(Layer::variance)) {
+    resize(planes.squares, pixels);
+    planes.second_samples.resize(pixels);
+    resize(planes.second_light, pixels);
+  }
   if (layers.has(Layer::normal)) resize(planes.normal, pixels);
   if (layers.has(Layer::albedo)) resize(planes.albedo, pixels);
   if (layers.has(Layer::crossings)) planes.crossings.resize(pixels);
@@ -70,6 +75,10 @@ void Film::add(int x, int y, const FilmSample& sample) {
   planes_.alpha[i].add(sample.alpha);
   if (layers_.empty()) return;
   add_three(planes_.squares, i, r * r, g * g, b * b);
+  if (sample.is_in_second_half && !planes_.second_samples.empty()) {
+    ++planes_.second_samples[i];
+    add_three(planes_.second_light, i, r, g, b);
+  }
   add_three(planes_.normal, i, sample.normal.x, sample.normal.y, sample.normal.z);
   add_three(planes_.albedo, i, sample.albedo.r, sample.albedo.g, sample.albedo.b);
   if (!planes_.crossings.empty()) planes_.crossings[i] += sample.crossings;
@@ -134,6 +143,23 @@ Rgb Film::variance(int x, int y) const {
   if (n < 2) return {};
   const std::size_t i = window_.index(x, y);
   const auto of = [&](std::size_t c) { return squared_error(planes_.light[c][i], planes_.squares[c][i], n); };
+  return {of(0), of(1), of(2)};
+}
+
+Rgb Film::error(int x, int y) const {
+  const std::size_t i = window_.index(x, y);
+  const double n = planes_.samples[i], second = planes_.second_samples[i], first = n - second;
+  if (first == 0 || second == 0) {
+    const Rgb v = variance(x, y);
+    return {std::sqrt(v.r), std::sqrt(v.g), std::sqrt(v.b)};
+  }
+  // Two means whose variances are as the inverse of their numbers differ with their sum, and the mean of all has the
+  // inverse of the whole number.
+  const double share = std::sqrt(first * second) / n;
+  const auto of = [&](std::size_t c) {
+    const double of_second = planes_.second_light[c][i].value(), of_all = planes_.light[c][i].value();
+    return share * (of_second / second - (of_all - of_second) / first);
+  };
   return {of(0), of(1), of(2)};
 }
 

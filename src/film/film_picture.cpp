@@ -78,17 +78,20 @@ class PictureMaker {
   }
 
   void add_variance() {
+    add_three({"variance.R", "variance.G", "variance.B"}, [this](int x, int y) { return film_.variance(x, y); });
+    add_three({"error.R", "error.G", "error.B"}, [this](int x, int y) { return film_.error(x, y); });
+  }
+  template <class Value>
+  void add_three(const std::array<const char*, 3>& names, const Value& value) {
     const std::size_t begin = picture_.channels.size();
-    for (const char* name : {"variance.R", "variance.G", "variance.B"}) {
-      channel(name, ChannelType::float32).values.reserve(planes_.samples.size());
-    }
+    for (const char* name : names) channel(name, ChannelType::float32).values.reserve(planes_.samples.size());
     const PixelWindow& window = film_.window();
     for (int y = window.y0; y < window.y1; ++y) {
       for (int x = window.x0; x < window.x1; ++x) {
-        const Rgb variance = film_.variance(x, y);
-        picture_.channels[begin].values.push_back(static_cast<float>(variance.r));
-        picture_.channels[begin + 1].values.push_back(static_cast<float>(variance.g));
-        picture_.channels[begin + 2].values.push_back(static_cast<float>(variance.b));
+        const Rgb three = value(x, y);
+        picture_.channels[begin].values.push_back(static_cast<float>(three.r));
+        picture_.channels[begin + 1].values.push_back(static_cast<float>(three.g));
+        picture_.channels[begin + 2].values.push_back(static_cast<float>(three.b));
       }
     }
   }

@@ -14,7 +14,10 @@ const std::array<LayerName, layer_count>& layer_names() {
       {Layer::crossings, "crossings", "boundaries of the solid along the pixel's whole ray, the mean"},
       {Layer::path_length, "path_length", "length of the pixel's whole ray inside the solid, the mean: an X-ray"},
       {Layer::samples, "samples", "how many samples the pixel has"},
-      {Layer::variance, "variance", "variance.R variance.G variance.B, of the mean: its standard error, squared"},
+      {Layer::variance, "variance",
+       "variance.R variance.G variance.B, of the mean, as if samples were independent; error.R error.G error.B, half "
+       "of "
+       "what differs between two halves of the samples"},
       {Layer::sums, "sums", "exact sums, for `tenon merge`; always there with --samples or --crop"},
   }};
   return names;

@@ -90,6 +90,7 @@ void TileWorker::add(std::size_t i, Film& film) {
   if (features_ != nullptr || wants_spans_) sample = FilmSample{};
   sample.index = ids_[i].index;
   sample.alpha = 1;
+  sample.is_in_second_half = is_in_second_half(sample.index, samples_);
   sample.light = hatch_ != nullptr ? hatch_->light(hits_[i], places_[i]) * light_[i] : light_[i];
   if (transparent_ && !hits_[i].found()) {
     sample.light = {};

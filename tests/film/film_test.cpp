@@ -34,6 +34,60 @@ TEST(Film, MeansAndStandardErrorOfItsSamples) {
   EXPECT_EQ(film.variance(1, 2), Rgb{});
 }
 
+TEST(Film, HalvesAreBlocksByTurns) {
+  const auto halves = [](std::uint32_t samples) {
+    std::string text;
+    for (std::uint32_t i = 0; i < std::min(samples, 70U); ++i) text += is_in_second_half(i, samples) ? 'b' : 'a';
+    return text;
+  };
+  EXPECT_EQ(halves(1), "a");
+  EXPECT_EQ(halves(2), "ab");
+  EXPECT_EQ(halves(3), "aba");
+  EXPECT_EQ(halves(8), "aaaabbbb");
+  EXPECT_EQ(halves(12), "aaaabbbbaaaa");
+  const std::string a(16, 'a'), b(16, 'b');
+  EXPECT_EQ(halves(64), a + b + a + b);
+  EXPECT_EQ(halves(1000), a + b + a + b + "aaaaaa");
+}
+
+// Over many pixels of independent samples the square of what the halves tell is the squared error, however unequal the
+// halves are.
+TEST(Film, HalvesTellTheError) {
+  const std::uint64_t seed = 3;
+  SCOPED_TRACE(seed);
+  Random random(seed);
+  constexpr int pixels = 20000;
+  for (const std::uint32_t samples : {2U, 3U, 8U, 12U}) {
+    Film film(pixels, 1, {0, 0, pixels, 1}, Layers{Layer::variance});
+    double told = 0, true_error = 0;
+    for (int x = 0; x < pixels; ++x) {
+      for (std::uint32_t i = 0; i < samples; ++i) {
+        FilmSample sample;
+        sample.is_in_second_half = is_in_second_half(i, samples);
+        sample.light = {1, random.uniform(0, 1), 0};
+        film.add(x, 0, sample);
+      }
+      EXPECT_EQ(film.error(x, 0).r, 0);
+      told += std::pow(film.error(x, 0).g, 2);
+      true_error += std::pow(film.light(x, 0).g - 0.5, 2);
+    }
+    // A squared difference of means has a relative variance of 2 at most, so has a squared error.
+    EXPECT_NEAR(told / true_error, 1, 5 * std::sqrt(4.0 / pixels)) << samples;
+    EXPECT_NEAR(true_error / pixels, 1.0 / 12 / samples, 5 * std::sqrt(2.0 / pixels) / 12 / samples) << samples;
+  }
+}
+
+TEST(Film, WithoutASecondHalfTheSamplesTellTheError) {
+  Film film(1, 1, {0, 0, 1, 1}, Layers{Layer::variance});
+  EXPECT_EQ(film.error(0, 0), Rgb{});
+  for (const double v : {0.25, 1.0, 0.5}) {
+    FilmSample sample;
+    sample.light = {v, v, v};
+    film.add(0, 0, sample);
+  }
+  EXPECT_DOUBLE_EQ(film.error(0, 0).r, std::sqrt(film.variance(0, 0).r));
+}
+
 TEST(Film, FirstSampleIsTheOneOfTheLowestIndexWheneverItComes) {
   for (const auto& order : {std::array{3U, 1U, 7U}, std::array{1U, 3U, 7U}, std::array{7U, 3U, 1U}}) {
     Film film(1, 1, {0, 0, 1, 1}, all_planes());
@@ -62,8 +116,8 @@ TEST(FilmPicture, ChannelsThatCompositorsExpect) {
     EXPECT_EQ(picture.find(name)->type, ChannelType::half) << name;
     EXPECT_EQ(picture.find(name)->values.size(), 12U) << name;
   }
-  for (const char* name :
-       {"Z", "P.X", "P.Y", "P.Z", "crossings", "path_length", "variance.R", "variance.G", "variance.B"}) {
+  for (const char* name : {"Z", "P.X", "P.Y", "P.Z", "crossings", "path_length", "variance.R", "variance.G",
+                           "variance.B", "error.R", "error.G", "error.B"}) {
     ASSERT_NE(picture.find(name), nullptr) << name;
     EXPECT_EQ(picture.find(name)->type, ChannelType::float32) << name;
   }
@@ -71,7 +125,7 @@ TEST(FilmPicture, ChannelsThatCompositorsExpect) {
     ASSERT_NE(picture.find(name), nullptr) << name;
     EXPECT_EQ(picture.find(name)->type, ChannelType::uint32) << name;
   }
-  EXPECT_EQ(picture.channels.size(), 23U);
+  EXPECT_EQ(picture.channels.size(), 26U);
   EXPECT_EQ(picture.find("id.primitive")->numbers[5], random_sample(2, 2, 0).ids.primitive);
   EXPECT_EQ(film_picture(film, {}, 32).channels.size(), 4U);
 }

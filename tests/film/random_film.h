@@ -15,6 +15,7 @@ inline FilmSample random_sample(int x, int y, std::uint32_t index) {
   Random random((static_cast<std::uint64_t>(y) << 40U) + (static_cast<std::uint64_t>(x) << 20U) + index);
   FilmSample s;
   s.index = index;
+  s.is_in_second_half = is_in_second_half(index, 8);
   s.light = {random.magnitude(-9, 6), random.magnitude(-3, 0), random.uniform(0, 1)};
   s.alpha = random.chance(0.8) ? 1 : 0;
   if (random.chance(0.1)) return s;

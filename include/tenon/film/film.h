@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <limits>
 
@@ -26,10 +28,21 @@ struct FilmSample {
   Vec3 normal, point;
   Rgb albedo;
   SurfaceIds ids;
+  bool is_in_second_half = false;  ///< see is_in_second_half()
 
   std::uint32_t crossings = 0;  ///< boundaries of the solid along the whole ray
   double path_length = 0;       ///< inside the solid, along the whole ray
 };
+
+/// Which of two halves of a pixel's samples one belongs to: what differs between the halves tells the noise of the
+/// whole (Film::error). They are blocks by turns, as long as they can be up to 16: each is as even as low discrepancy
+/// makes so many samples, and from two blocks on there is something to compare however many samples there will be.
+/// @param samples  of a pixel, when the picture is complete
+inline bool is_in_second_half(std::uint32_t index, std::uint32_t samples) {
+  constexpr std::uint32_t longest_block = 16;
+  const std::uint32_t block = std::min(longest_block, std::bit_floor(std::max(samples / 2, 1U)));
+  return (index / block & 1U) != 0;
+}
 
 /// The picture while it is taken, or a part of it: for each pixel of a window the sums of its samples. They are exact
 /// (ExactSum), so films of other samples and other windows add up to the same bytes in any order.
@@ -61,8 +74,13 @@ class Film {
   /// Means over a pixel's samples; 0 where it has none.
   Rgb light(int x, int y) const;
   double alpha(int x, int y) const;
-  /// The squared standard error of light(); 0 where there are fewer than two samples. Needs Layer::variance.
+  /// The squared standard error of light() if samples were independent of each other, more than they err where they are
+  /// even; 0 where there are fewer than two samples. Needs Layer::variance.
   Rgb variance(int x, int y) const;
+  /// What light() may well err by: half of what differs between the two halves of the samples. Its square is what the
+  /// squared error comes to, but for what low discrepancy makes of the halves together; one pixel's alone says little.
+  /// The root of variance() where one of the halves is empty. Needs Layer::variance.
+  Rgb error(int x, int y) const;
 
   /// What a film of that size takes.
   static double bytes(const PixelWindow& window, const Layers& layers);

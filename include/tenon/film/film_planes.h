@@ -19,6 +19,10 @@ struct FilmPlanes {
   Three<WideSum> light;
   std::vector<ShareSum> alpha;
   Three<SquareSum> squares;
+  // Of those samples alone that are in the second half.
+  std::vector<std::uint32_t> second_samples;
+  Three<WideSum> second_light;
+  // Of all again.
   Three<ShareSum> normal, albedo;
   std::vector<std::uint64_t> crossings;
   std::vector<WideSum> path_length;
@@ -49,6 +53,14 @@ void for_each_sum(Visit&& visit) {
       "squares.G", [](auto& p) -> auto& { return p.squares[1]; });
   visit(
       "squares.B", [](auto& p) -> auto& { return p.squares[2]; });
+  visit(
+      "second.samples", [](auto& p) -> auto& { return p.second_samples; });
+  visit(
+      "second.R", [](auto& p) -> auto& { return p.second_light[0]; });
+  visit(
+      "second.G", [](auto& p) -> auto& { return p.second_light[1]; });
+  visit(
+      "second.B", [](auto& p) -> auto& { return p.second_light[2]; });
   visit(
       "normal.X", [](auto& p) -> auto& { return p.normal[0]; });
   visit(

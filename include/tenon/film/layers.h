@@ -19,7 +19,7 @@ enum class Layer : std::uint8_t {
   crossings,    ///< crossings
   path_length,  ///< path_length
   samples,      ///< samples
-  variance,     ///< variance.R variance.G variance.B
+  variance,     ///< variance.R variance.G variance.B error.R error.G error.B
   sums,         ///< sums.*: what `merge` and `--resume` need, exactly
 };
 inline constexpr std::size_t layer_count = 10;
