@@ -139,35 +139,43 @@ void PathIntegrator::connect(const Bounce& at) {
   }
   const Rgb sent = share * (at.path.throughput * value.light * sample->light);
   if (!(largest(sent) > 0)) return;
-  RayQuery query;
-  query.ray = {hit.point, sample->to_light};
-  query.t_max = sample->t_max;
-  if (chosen.light->has_surface()) query.t_max -= scene_.light_margin(sample->cos) / distance;
+  double t_max = sample->t_max;
+  if (chosen.light->has_surface()) t_max -= scene_.light_margin(sample->cos) / distance;
+  if (scene_.is_blocked_by_light({hit.point, sample->to_light}, t_max, chosen.light)) return;
+  // Part by part, where they stay: a copy of what was just put together waits for all of its parts.
+  ShadowRays& to_light = shadow_rays_[static_cast<std::size_t>(chosen.light - scene_.lights().data())];
+  RayQuery& query = to_light.queries.emplace_back();
+  query.ray.origin = hit.point;
+  query.ray.direction = sample->to_light;
+  query.t_max = t_max;
   query.kind = RayKind::shadow;
   query.from = &hit;
-  if (scene_.is_blocked_by_light(query.ray, query.t_max, chosen.light)) return;
-  ShadowRays& to_light = shadow_rays_[static_cast<std::size_t>(chosen.light - scene_.lights().data())];
-  to_light.queries.push_back(query);
-  to_light.rays.push_back({sent, at.path.slot, wi.z > 0 ? hit.before : hit.after});
+  ShadowRay& ray = to_light.rays.emplace_back();
+  ray.light = sent;
+  ray.slot = at.path.slot;
+  ray.medium = wi.z > 0 ? hit.before : hit.after;
 }
 
 void PathIntegrator::go_on(const Bounce& at, int bounce) {
   const auto drawn = at.bsdf.sample(draws_.choice[at.vertex].v, draws_.direction[at.vertex]);
   if (!drawn) return;
   const Hit& hit = at.hit;
-  Path path = at.path;
-  path.throughput = path.throughput * drawn->weight;
+  Rgb throughput = at.path.throughput * drawn->weight;
+  double growth = at.path.growth;
   if (drawn->is_transmitted) {
     const double eta = scene_.ior(hit.before) / scene_.ior(hit.after);
-    path.growth *= eta * eta;
+    growth *= eta * eta;
   }
   // A path that carries little goes on seldom, and then carries more.
-  const double survival = largest(path.throughput) / path.growth;
+  const double survival = largest(throughput) / growth;
   if (bounce >= certain_bounces && survival < 1) {
     if (!(draws_.roulette[at.vertex].u < survival)) return;
-    path.throughput = path.throughput * (1 / survival);
+    throughput = throughput * (1 / survival);
   }
-  if (!(largest(path.throughput) > 0)) return;
+  if (!(largest(throughput) > 0)) return;
+  Path& path = next_paths_.emplace_back(at.path);
+  path.throughput = throughput;
+  path.growth = growth;
   // Going straight through is as if there had been no surface.
   if (!drawn->is_unbent) {
     path.vertex = hit.point;
@@ -175,12 +183,11 @@ void PathIntegrator::go_on(const Bounce& at, int bounce) {
     path.is_camera_ray = false;
     path.is_sharp &= drawn->density == 0;
   }
-  RayQuery query;
-  query.ray = {hit.point, at.frame.to_world(drawn->direction)};
+  RayQuery& query = next_queries_.emplace_back();
+  query.ray.origin = hit.point;
+  query.ray.direction = at.frame.to_world(drawn->direction);
   query.kind = drawn->density > 0 ? RayKind::diffuse : drawn->is_transmitted ? RayKind::refracted : RayKind::reflected;
   query.from = &hit;
-  next_paths_.push_back(path);
-  next_queries_.push_back(query);
 }
 
 void PathIntegrator::trace_shadow_rays(std::span<Rgb> light, TraceContext& context) {

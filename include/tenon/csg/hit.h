@@ -42,6 +42,8 @@ struct Hit {
   InlineVector<LeafFace, 4> faces;
 
   bool found() const { return t < std::numeric_limits<double>::infinity(); }
+  /// Makes it one that was not found; what else was known stays there, and means nothing.
+  void lose() { t = std::numeric_limits<double>::infinity(); }
 };
 
 /// A stretch of a ray inside the solid; ends may be infinite.

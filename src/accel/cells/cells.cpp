@@ -40,7 +40,7 @@ class Cells final : public Accelerator {
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const CellAnswer& answer = context.answers[i];
       if (answer.kind == CellAnswer::Kind::nothing) {
-        hits[i] = Hit{};
+        hits[i].lose();
       } else if (answer.kind == CellAnswer::Kind::unsure || !complete(queries[i], answer, hits[i], context)) {
         exact(context, [&](const Accelerator& exact, TraceContext& exact_context) {
           exact.first_hits(queries.subspan(i, 1), hits.subspan(i, 1), exact_context);
