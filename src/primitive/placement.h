@@ -59,8 +59,10 @@ class Placement {
   Vec3 point_to_local(const Vec3& world) const { return to_local_direction(world - world_origin()); }
   /// A normal of the local frame, carried to the world at length 1. A mirrored frame keeps outward normals outward.
   Vec3 normal_to_world(const Vec3& local_normal) const {
-    return normalize(local_from_world_[0] * local_normal.x + local_from_world_[1] * local_normal.y +
-                     local_from_world_[2] * local_normal.z);
+    const Vec3 n = local_from_world_[0] * local_normal.x + local_from_world_[1] * local_normal.y +
+                   local_from_world_[2] * local_normal.z;
+    // As faces of boxes that no map scales have it; to divide by 1 takes as long as by anything.
+    return dot(n, n) == 1 ? n : normalize(n);
   }
 
   struct MappedRay {

@@ -133,8 +133,9 @@ BsdfValue Bsdf::evaluate(const Vec3& wi) const {
   for (std::size_t i = 0; i < count_; ++i) {
     const BsdfValue value = evaluate_lobe(lobes_[i], wo_, wi);
     sum.light += value.light;
-    sum.density += lobes_[i].probability / total_ * value.density;
+    sum.density += lobes_[i].probability * value.density;
   }
+  if (count_ > 0) sum.density /= total_;
   return sum;
 }
 

@@ -50,14 +50,16 @@ void PathIntegrator::radiance(std::span<const RayQuery> primary, std::span<const
     for (std::size_t i = 0; i < vertices_.size(); ++i) scatter(i, hits[vertices_[i].path], bounce);
     trace_shadow_rays(light, context);
     if (next_paths_.empty()) return;
-    next_hits_.resize(next_queries_.size());
-    accelerator_.first_hits(next_queries_, next_hits_, context);
+    // Hits are kept where there are fewer of them for now: to make them takes time.
+    if (next_hits_.size() < next_queries_.size()) next_hits_.resize(next_queries_.size());
+    const std::span<Hit> met = std::span(next_hits_).first(next_queries_.size());
+    accelerator_.first_hits(next_queries_, met, context);
     // The queries point into the hits they start at, which live until the next bounce is traced.
     std::swap(paths_, next_paths_);
     std::swap(queries_, next_queries_);
     std::swap(hits_, next_hits_);
     rays = queries_;
-    hits = hits_;
+    hits = met;
   }
 }
 
