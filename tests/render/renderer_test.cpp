@@ -161,7 +161,7 @@ TEST(Renderer, NoiseTargetIsMetWithFewerSamples) {
   RenderOptions options = small();
   options.integrator = IntegratorKind::path;
   options.samples = 512;
-  options.noise = 0.08;
+  options.noise = 0.02;
   const Rendering rendering = still.render(options);
   ASSERT_EQ(rendering.end, RenderEnd::finished);
   const TileGrid tiles(rendering.film.window());
