@@ -168,6 +168,22 @@ def growth_page(rows):
     ]
 
 
+def cores_page(rows):
+    measured = rates(rows)
+    ratios = {}
+    for (scene, label), contenders in measured.items():
+        rays, _, cores = label.partition(" x")
+        for name, rate in contenders.items() if cores else ():
+            ratios[scene, f"{rays}, {cores} cores"] = rate / measured[scene, rays][name]
+    return [
+        "## Cores",
+        "",
+        "How many times as fast as on one core, in batches.",
+        "",
+        *by_scene(ratios, lambda ratio: ratio),
+    ]
+
+
 PARTS = {
     "structures": structures_page,
     "embree": embree_page,
@@ -179,7 +195,7 @@ PARTS = {
     "path": lambda rows: figures_page(
         "Path tracing", "As the thesis renders: 8 samples a pixel, 20 surfaces along a path.", rows
     ),
-    "cores": lambda rows: figures_page("Cores", "How many times as fast with all cores.", rows),
+    "cores": cores_page,
 }
 
 

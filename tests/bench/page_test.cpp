@@ -74,5 +74,16 @@ TEST_F(BenchPage, SetsBatchesAgainstPacketsAndSingleRaysAgainstSingleRays) {
   EXPECT_TRUE(has(text, "| a | shadow | 12,345 | 30 | 5 | 10 | 25 | 60 |")) << text;
 }
 
+TEST_F(BenchPage, SetsAllCoresAgainstOne) {
+  write("cores", R"([
+    {"scene": "a", "rays": "primary", "contender": "cells", "mrays_per_second": 10},
+    {"scene": "a", "rays": "primary x2", "contender": "cells", "mrays_per_second": 19},
+    {"scene": "a", "rays": "shadow", "contender": "cells", "mrays_per_second": 20},
+    {"scene": "a", "rays": "shadow x2", "contender": "cells", "mrays_per_second": 39}])");
+  const std::string text = page();
+  EXPECT_TRUE(has(text, "| primary, 2 cores | shadow, 2 cores |")) << text;
+  EXPECT_TRUE(has(text, "| a | 1.9 | 1.95 |")) << text;
+}
+
 }  // namespace
 }  // namespace tenon::bench
