@@ -46,10 +46,10 @@ Result<std::optional<Film>> Checkpoint::load(const RenderOptions& options) const
     difference = picture_difference(expected, *kept);
   }
   if (difference.empty()) return std::optional<Film>(std::move(kept->film));
-  return Error{ErrorKind::input,
-               "'" + path_ + "' is the checkpoint of another picture: " + difference +
-                   "; render that one, or remove the file, or leave --resume out",
-               {}};
+  return Error{
+      ErrorKind::input,
+      "'" + path_ + "' is the checkpoint of another picture: " + difference + "; render that one, or remove the file",
+      {}};
 }
 
 void Checkpoint::save(const Film& film, const std::vector<SampleBox>& done, Console& console) {

@@ -227,6 +227,11 @@ Status RenderCommand::take(const RenderPlan& plan, const PicturePlan& file, cons
       Result<std::optional<Film>> film = checkpoint->load(options);
       if (!film) return film.error();
       resumed = std::move(*film);
+    } else if (std::filesystem::exists(work.checkpoint)) {
+      return Error{ErrorKind::input,
+                   "there is a checkpoint '" + work.checkpoint +
+                       "' already, and work may be lost with it; go on from it with --resume, or remove it",
+                   {}};
     }
   }
 

@@ -48,6 +48,12 @@ ModuleArguments::ModuleArguments(ModuleCall& call, std::span<const std::string_v
   for (auto& [name, value] : specials) environment.dynamics.push(name, std::move(value));
 }
 
+void refuse_children(const ModuleCall& call) {
+  if (call.instantiation.children->instantiations.empty()) return;
+  const std::string name = call.evaluator.environment().text(call.instantiation.name);
+  fail(call.at(), name + "() takes no children, for it holds for the whole scene; end it with ';'");
+}
+
 std::optional<Vec3> to_vec3(const Value& value, std::optional<double> fallback_z) {
   const List* list = value.list();
   if (!list) return std::nullopt;

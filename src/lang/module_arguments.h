@@ -28,6 +28,9 @@ class ModuleArguments {
   std::vector<Place> places_;
 };
 
+/// Fails where a call of a module that makes no solid has children: they would be left out.
+void refuse_children(const ModuleCall& call);
+
 /// A list of two or three finite numbers (z is `fallback_z` then); null otherwise.
 std::optional<Vec3> to_vec3(const Value& value, std::optional<double> fallback_z = std::nullopt);
 

@@ -147,6 +147,7 @@ std::string environment_file(const ModuleArguments& arguments) {
 }
 
 std::optional<Solid> light(ModuleCall& call) {
+  refuse_children(call);
   const ModuleArguments arguments(call, light_names, UnknownArgument::fail);
   const Affine3& here = call.evaluator.world_from_here;
   Light l;
@@ -197,12 +198,14 @@ std::optional<Solid> light(ModuleCall& call) {
 constexpr std::string_view color_parameter[] = {"color"};
 
 std::optional<Solid> background(ModuleCall& call) {
+  refuse_children(call);
   const ModuleArguments arguments(call, color_parameter, UnknownArgument::fail);
   call.evaluator.builder().model().background = require_color(arguments, 0, "color");
   return std::nullopt;
 }
 
 std::optional<Solid> ambient(ModuleCall& call) {
+  refuse_children(call);
   const ModuleArguments arguments(call, color_parameter, UnknownArgument::fail);
   Rgba c;
   if (arguments[0].number()) {

@@ -44,6 +44,7 @@ void set_lens(const ModuleArguments& arguments, Camera& c) {
 }
 
 std::optional<Solid> camera(ModuleCall& call) {
+  refuse_children(call);
   const ModuleArguments arguments(call, camera_names, UnknownArgument::fail);
   Model& model = call.evaluator.builder().model();
   if (model.camera) call.evaluator.environment().warn(call.at(), "there is more than one camera; the last one holds");
@@ -110,6 +111,7 @@ SectionPlane require_plane(const ModuleArguments& arguments, const Value& value)
 }
 
 std::optional<Solid> section(ModuleCall& call) {
+  refuse_children(call);
   const ModuleArguments arguments(call, section_names, UnknownArgument::fail);
   SectionCut cut;
   if (arguments.given(planes)) {

@@ -163,17 +163,28 @@ TEST_F(LongWork, CheckpointOfAnotherPictureIsRefused) {
 }
 
 TEST_F(LongWork, CheckpointThatFindsNoRoomIsAWarningAndTheOneBeforeStays) {
-  write("work.exr", "old");
+  const Words words{"render", "ball.scad", "-q", "--size", "200x150", "--spp", "4096"};
+  ASSERT_EQ(run(joined(words, {"--samples", "0:1", "--layers", "none", "--bits", "32", "-o", "work.exr"})).status, 0);
+  const std::string before = read("work.exr");
   rlimit old{};
   getrlimit(RLIMIT_FSIZE, &old);
   const rlimit limited{20000, old.rlim_max};
   setrlimit(RLIMIT_FSIZE, &limited);
-  const pid_t child = start({"render", "ball.scad", "-q", "--size", "200x150", "--spp", "4096", "-o", "out.png",
-                             "--checkpoint", "work.exr", "--checkpoint-every", "0.01", "--time", "2"});
+  const pid_t child = start(joined(
+      words, {"-o", "out.png", "--checkpoint", "work.exr", "--checkpoint-every", "0.01", "--resume", "--time", "2"}));
   setrlimit(RLIMIT_FSIZE, &old);
   const Outcome outcome = wait_for(child);
   EXPECT_TRUE(contains(outcome.err, "the work goes on without this checkpoint")) << outcome.err;
-  EXPECT_EQ(read("work.exr"), "old");
+  EXPECT_EQ(read("work.exr"), before);
+}
+
+TEST_F(LongWork, CheckpointThatIsThereIsNotWrittenOver) {
+  write("work.exr", "hours of work");
+  const Outcome outcome = run(render({"-o", "out.png", "--checkpoint", "work.exr"}));
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(contains(outcome.err, "go on from it with --resume, or remove it")) << outcome.err;
+  EXPECT_EQ(read("work.exr"), "hours of work");
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
 }
 
 TEST_F(LongWork, TimeIsABudget) {

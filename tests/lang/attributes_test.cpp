@@ -187,6 +187,9 @@ TEST(View, SectionsTakeSidesAwayAndMoveWithTheTransformsAroundThem) {
   EXPECT_GT(moved.normal.y, 0);
   EXPECT_DOUBLE_EQ(*moved.d / moved.normal.y, 10);
   EXPECT_NE(error_of("section([0, 0, 0], 1);").find("not be zero"), std::string::npos);
+  EXPECT_NE(error_of("section([1, 0, 0]) cube();").find("takes no children"), std::string::npos);
+  EXPECT_NE(error_of("camera() sphere();").find("takes no children"), std::string::npos);
+  EXPECT_NE(error_of("light() { cube(); }").find("takes no children"), std::string::npos);
   EXPECT_NE(error_of("section(planes = [[1, 0]]);").find("list of planes"), std::string::npos);
   EXPECT_NE(error_of("section(planes = []);").find("list of planes"), std::string::npos);
   EXPECT_NE(error_of("section([1, 0, 0], planes = [[1, 0, 0, 2]]);").find("one of the two"), std::string::npos);
