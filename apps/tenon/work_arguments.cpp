@@ -87,7 +87,8 @@ void WorkArguments::add_to(CLI::App& command) {
   command
       .add_option(
           "--checkpoint", checkpoint,
-          "Keep what is done in this file now and then, an EXR with exact sums; it goes when the picture is done")
+          "Keep what is done in this file now and then, an EXR with exact sums; it goes when the picture is done, and "
+          "one that is there is not written over without --resume")
       ->type_name("FILE");
   command.add_option("--checkpoint-every", checkpoint_seconds, "Seconds of work between two checkpoints")
       ->type_name("SECONDS")
