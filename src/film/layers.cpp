@@ -16,8 +16,7 @@ const std::array<LayerName, layer_count>& layer_names() {
       {Layer::samples, "samples", "how many samples the pixel has"},
       {Layer::variance, "variance",
        "variance.R variance.G variance.B, of the mean, as if samples were independent; error.R error.G error.B, half "
-       "of "
-       "what differs between two halves of the samples"},
+       "of what differs between two halves of the samples"},
       {Layer::sums, "sums", "exact sums, for `tenon merge`; always there with --samples or --crop"},
   }};
   return names;

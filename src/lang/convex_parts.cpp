@@ -330,14 +330,18 @@ std::vector<UnionLeaf> views(const UnionLeaf& leaf) {
   return result;
 }
 
-std::optional<Extrusion> aligned_extrusion(const Extrusion& extrusion, const Affine3& map) {
+bool keeps_z_axis(const Affine3& map) {
   const auto& m = map.m;
   const double across = std::max({std::fabs(m[0][0]), std::fabs(m[0][1]), std::fabs(m[1][0]), std::fabs(m[1][1])});
   const double along = std::fabs(m[2][2]);
-  // A few rotations' rounding.
   const double tilt = std::max(std::fabs(m[2][0]), std::fabs(m[2][1])),
                shear = std::max(std::fabs(m[0][2]), std::fabs(m[1][2]));
-  if (tilt > 0x1p-42 * across || shear > 0x1p-42 * along) return std::nullopt;
+  return tilt <= turn_rounding * across && shear <= turn_rounding * along;
+}
+
+std::optional<Extrusion> aligned_extrusion(const Extrusion& extrusion, const Affine3& map) {
+  const auto& m = map.m;
+  if (!keeps_z_axis(map)) return std::nullopt;
   const double a = m[2][2] * extrusion.low + m[2][3], b = m[2][2] * extrusion.high + m[2][3];
   return Extrusion{mapped(extrusion.outline, map), std::min(a, b), std::max(a, b)};
 }
@@ -355,8 +359,7 @@ std::optional<double> even_scale(const Affine3& map) {
   for (int i = 0; i < 3; ++i) {
     for (int j = i; j < 3; ++j) {
       const double expected = i == j ? size * size : 0;
-      // A few rotations' rounding.
-      if (std::fabs(dot(map.column(i), map.column(j)) - expected) > 0x1p-42 * size * size) return std::nullopt;
+      if (std::fabs(dot(map.column(i), map.column(j)) - expected) > turn_rounding * size * size) return std::nullopt;
     }
   }
   return size;

@@ -31,6 +31,12 @@ std::optional<Extrusion> extrusion_of(const UnionLeaf& leaf);
 /// A primitive in every way in which it is an extrusion along z: a cube is one along each of its edges.
 std::vector<UnionLeaf> views(const UnionLeaf& leaf);
 
+/// What a few rotations round, against the size of what is turned: maps that differ by less are one.
+inline constexpr double turn_rounding = 0x1p-42;
+
+/// Whether a map keeps the direction of the z axis and planes across it, but for rounding.
+bool keeps_z_axis(const Affine3& map);
+
 /// An extrusion under a map that keeps the z axis and planes across it, but for rounding; nothing under others.
 std::optional<Extrusion> aligned_extrusion(const Extrusion& extrusion, const Affine3& map);
 

@@ -11,9 +11,6 @@ namespace tenon::lang {
 
 namespace {
 
-// A few rotations' rounding.
-constexpr double turn_rounding = 0x1p-42;
-
 bool has_arcs(const Outline& outline) {
   return std::any_of(outline.loops.begin(), outline.loops.end(), [](const auto& loop) {
     return std::any_of(loop.begin(), loop.end(), [](const OutlineCorner& corner) { return corner.bulge != 0; });
@@ -73,10 +70,8 @@ std::optional<Outline> aligned_profile(const UnionLeaf& leaf, const Affine3& map
     in_plane.m[0][0] = in_plane.m[1][1] = *scale;
     return mapped(outline, in_plane);
   }
-  const double across = length(map.column(0)), along = std::fabs(m[2][2]);
-  const double tilt = std::max(std::fabs(m[2][0]), std::fabs(m[2][1])),
-               shear = std::max(std::fabs(m[0][2]), std::fabs(m[1][2]));
-  if (tilt > turn_rounding * across || shear > turn_rounding * along) return std::nullopt;
+  if (!keeps_z_axis(map)) return std::nullopt;
+  const double across = length(map.column(0));
   if (std::fabs(length(map.column(1)) - across) > turn_rounding * across) return std::nullopt;
   if (std::fabs(dot(map.column(0), map.column(1))) > turn_rounding * across * across) return std::nullopt;
   in_plane.m[0][0] = across;
