@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 #include "base/note_interrupt.h"
@@ -87,6 +88,33 @@ mode_t default_mode() {
   return 0666 & ~mask;
 }
 
+// Gives an open file without a name one beside `path`.
+// @return the name; empty, with errno, where that cannot be
+std::string name_beside(int file, const std::string& path) {
+  const std::string open_file = "/proc/self/fd/" + std::to_string(file);
+  for (int i = 0;; ++i) {
+    std::string name = path + '.' + std::to_string(getpid()) + '.' + std::to_string(i);
+    if (linkat(AT_FDCWD, open_file.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) return name;
+    if (errno != EEXIST) return "";
+  }
+}
+
+// A file without a name on the disk of `path`, of which nothing is left however this process ends. A first one shows
+// that such a file can be named in the end: some file systems and sandboxes allow the one and not the other.
+// @return -1 where there are none
+int open_unnamed(const std::string& path) {
+  std::string folder = std::filesystem::path(path).parent_path().string();
+  if (folder.empty()) folder = ".";
+  const auto open_one = [&] { return open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0600); };
+  const int first = open_one();
+  if (first < 0) return -1;
+  const std::string name = name_beside(first, path);
+  close(first);
+  if (name.empty()) return -1;
+  unlink(name.c_str());
+  return open_one();
+}
+
 }  // namespace
 
 Error AtomicFile::failure(const char* doing) const {
@@ -121,11 +149,15 @@ Result<AtomicFile> AtomicFile::create(const std::string& path) {
     return file;
   }
 
-  std::string name = file.path_ + ".XXXXXX";
-  file.file_ = mkostemp(name.data(), O_CLOEXEC);
-  if (file.file_ < 0) return file.failure("write");
-  file.temporary_path_ = name;
-  file.signal_slot_ = register_temporary(name);
+  file.file_ = open_unnamed(file.path_);
+  file.is_unnamed_ = file.file_ >= 0;
+  if (!file.is_unnamed_) {
+    std::string name = file.path_ + ".XXXXXX";
+    file.file_ = mkostemp(name.data(), O_CLOEXEC);
+    if (file.file_ < 0) return file.failure("write");
+    file.temporary_path_ = name;
+    file.signal_slot_ = register_temporary(name);
+  }
   if (fchmod(file.file_, exists ? status.st_mode & 07777U : default_mode()) != 0) return file.failure("write");
   return file;
 }
@@ -134,6 +166,7 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : shown_path_(std::move(other.shown_path_)),
       path_(std::move(other.path_)),
       temporary_path_(std::exchange(other.temporary_path_, {})),
+      is_unnamed_(std::exchange(other.is_unnamed_, false)),
       file_(std::exchange(other.file_, -1)),
       signal_slot_(std::exchange(other.signal_slot_, -1)) {}
 
@@ -149,9 +182,14 @@ Status AtomicFile::write(std::string_view bytes) {
 }
 
 Status AtomicFile::commit() {
-  const bool replaces = !temporary_path_.empty();
+  const bool replaces = is_unnamed_ || !temporary_path_.empty();
   // Some file systems find out only now that there is no room.
   if (replaces && fsync(file_) != 0) return failure("write");
+  if (is_unnamed_) {
+    temporary_path_ = name_beside(file_, path_);
+    if (temporary_path_.empty()) return failure("put in place");
+    signal_slot_ = register_temporary(temporary_path_);
+  }
   if (close(std::exchange(file_, -1)) != 0) return failure("write");
   if (!replaces) return success();
   if (rename(temporary_path_.c_str(), path_.c_str()) != 0) return failure("put in place");

@@ -1,5 +1,6 @@
 #include "tenon/base/atomic_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -120,6 +121,32 @@ TEST_F(AtomicFileTest, SignalsRemoveTheTemporaryFile) {
   };
   EXPECT_EXIT(interrupted(), testing::ExitedWithCode(130), "");
   EXPECT_EQ(files(), 0U);
+}
+
+TEST_F(AtomicFileTest, KilledProcessLeavesNothing) {
+  const int unnamed = open(folder.c_str(), O_WRONLY | O_TMPFILE, 0600);
+  if (unnamed < 0) GTEST_SKIP() << "this file system has no files without names";
+  close(unnamed);
+  std::ofstream(folder / "picture") << "old";
+  const auto killed = [&] {
+    auto file = AtomicFile::create(folder / "picture");
+    if (file.ok() && file->write("new").ok()) raise(SIGKILL);
+    _exit(0);
+  };
+  EXPECT_EXIT(killed(), testing::KilledBySignal(SIGKILL), "");
+  EXPECT_EQ(content(folder / "picture"), "old");
+  EXPECT_EQ(files(), 1U);
+}
+
+// Of a process that was killed in the moment between naming the file and putting it in place.
+TEST_F(AtomicFileTest, NameThatIsTakenIsLeftAlone) {
+  const std::string taken = "picture." + std::to_string(getpid()) + ".0";
+  std::ofstream(folder / taken) << "another's";
+  auto file = AtomicFile::create(folder / "picture");
+  ASSERT_TRUE(file.ok() && file->write("new").ok() && file->commit().ok());
+  EXPECT_EQ(content(folder / "picture"), "new");
+  EXPECT_EQ(content(folder / taken), "another's");
+  EXPECT_EQ(files(), 2U);
 }
 
 TEST_F(AtomicFileTest, SizeLimitIsAnErrorNotASignal) {

@@ -7,9 +7,10 @@
 
 namespace tenon {
 
-/// A file that nobody ever sees half written: its bytes go to a temporary file beside it, which takes its name when
-/// everything is on disk. Until then an older file of that name stays as it was; whatever goes wrong, the temporary
-/// file is removed.
+/// A file that nobody ever sees half written: its bytes go to a temporary file on the same disk, which takes its name
+/// when everything is written. Until then an older file of that name stays as it was; whatever goes wrong, the
+/// temporary file is removed. It has no name of its own, so that nothing is left even where the process is killed; on
+/// file systems that have no such files it lies beside, under the name and six letters.
 ///
 /// Where the name is that of a device or a pipe, the bytes go straight there; a symbolic link keeps pointing where it
 /// does, and the file it points at is replaced.
@@ -32,7 +33,8 @@ class AtomicFile {
 
   std::string shown_path_;  // as the user wrote it
   std::string path_;
-  std::string temporary_path_;  // empty: written straight to path_
+  std::string temporary_path_;  // where the temporary file has a name
+  bool is_unnamed_ = false;     // it gets one in commit(); if neither, path_ is written straight
   int file_ = -1;
   int signal_slot_ = -1;
 };
