@@ -50,6 +50,13 @@ std::optional<double> seconds_left(const ProgressFigures& f) {
   return left;
 }
 
+// Of the work, or of the time that it may take, whichever ends it sooner.
+double share_done(const ProgressFigures& f) {
+  double share = static_cast<double>(f.done) / static_cast<double>(f.total);
+  if (f.seconds_allowed > 0) share = std::max(share, f.seconds / f.seconds_allowed);
+  return std::min(1.0, share);
+}
+
 }  // namespace
 
 std::string progress_text(const ProgressFigures& f, bool with_bar) {
@@ -57,7 +64,7 @@ std::string progress_text(const ProgressFigures& f, bool with_bar) {
   std::string text = f.what;
   if (f.total == 0) return text + ", " + clock_text(f.seconds);
 
-  const double share = std::min(1.0, static_cast<double>(f.done) / static_cast<double>(f.total));
+  const double share = share_done(f);
   std::array<char, 16> percent{};
   std::snprintf(percent.data(), percent.size(), " %3d %%", static_cast<int>(share * 100));
   text += percent.data();

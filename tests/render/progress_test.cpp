@@ -21,10 +21,10 @@ TEST(ProgressText, TimeLeftFollowsFromThisRunAlone) {
   EXPECT_EQ(progress_text({"rendering", 100, 60, 0, 5, 50}, false), "rendering  60 %, 0:20 left");
 }
 
-TEST(ProgressText, TimeLeftEndsWithTheTimeAllowed) {
-  EXPECT_EQ(progress_text({"rendering", 100, 10, 0, 5, 0, 30}, false), "rendering  10 %, 0:25 left");
+TEST(ProgressText, EndsWithTheTimeAllowed) {
+  EXPECT_EQ(progress_text({"rendering", 1000000, 10, 0, 6, 0, 30}, false), "rendering  20 %, 0:24 left");
   EXPECT_EQ(progress_text({"rendering", 100, 80, 0, 20, 0, 30}, false), "rendering  80 %, 0:05 left");
-  EXPECT_EQ(progress_text({"rendering", 100, 0, 0, 31, 0, 30}, false), "rendering   0 %, 0:00 left");
+  EXPECT_EQ(progress_text({"rendering", 100, 0, 0, 31, 0, 30}, false), "rendering 100 %, 0:00 left");
 }
 
 TEST(ProgressText, WithoutATotalSaysTheTime) {

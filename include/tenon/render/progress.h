@@ -30,7 +30,8 @@ struct ProgressFigures {
   double seconds_allowed = 0;
 };
 
-/// `rendering  42 % [########............] 1.3 Mrays/s, 0:12 left`; without what is not known. No end of line.
+/// `rendering  42 % [########............] 1.3 Mrays/s, 0:12 left`; without what is not known. No end of line. Where
+/// the work may end by the clock, the share is that of the time if it is the larger one.
 std::string progress_text(const ProgressFigures& figures, bool with_bar);
 
 enum class ProgressStyle {
