@@ -104,6 +104,26 @@ TEST(Png, AlphaIsKeptAsItIs) {
   EXPECT_EQ(decode(*encode_png({3, 1, rgb, alpha}, 16, {})).components[7], 32768U);
 }
 
+TEST(DecodeHead, NotesOfWholeFilesAlone) {
+  const std::vector<PictureNote> notes{{"Software", "tenon 1"}, {"Title", "Würfel.scad"}};
+  const std::vector<float> rgb(3 * 5 * 4, 0.5F);
+  Picture picture{5, 4, {1, 1, 4, 4}, {{"R", ChannelType::half, std::vector<float>(9, 0.5F), {}}}, notes};
+  for (const bool is_png : {true, false}) {
+    const std::string bytes = is_png ? *encode_png({5, 4, rgb, {}}, 8, notes) : *encode_exr(picture);
+    const auto head = decode_head(bytes, "x");
+    ASSERT_TRUE(head.ok()) << head.error().message;
+    EXPECT_EQ(head->width, 5);
+    EXPECT_EQ(head->window, (is_png ? PixelWindow{0, 0, 5, 4} : picture.window));
+    for (const PictureNote& note : notes) {
+      ASSERT_NE(head->note(note.key), nullptr);
+      EXPECT_EQ(*head->note(note.key), note.text);
+    }
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+      EXPECT_FALSE(decode_head(bytes.substr(0, size), "x").ok()) << size << " of " << bytes.size();
+    }
+  }
+}
+
 TEST(PictureFormat, FollowsTheSuffix) {
   EXPECT_EQ(picture_format("a/b.png"), PictureFormat::png);
   EXPECT_EQ(picture_format("a.PNG"), PictureFormat::png);

@@ -34,6 +34,12 @@ Result<std::string> encode_png(const DisplayPicture& picture, int bits, std::spa
 /// @return the bytes, or a machine error
 Result<std::string> encode_exr(const Picture& picture);
 
+/// What a PNG or OpenEXR file says beside its pixels: size, window and notes. All of the file is decoded, since only a
+/// whole one is of use.
+/// @param name  stands for the file in messages
+/// @return a picture without channels, or an input error: neither format, damaged or cut off
+Result<Picture> decode_head(const std::string& bytes, const std::string& name);
+
 /// Reads an OpenEXR file of one part, scan lines or tiles, with all its channels and text attributes.
 /// @param name  stands for the file in messages
 /// @return the picture, or an input error: no such file, damaged, or more pixels promised than it can hold
