@@ -1,9 +1,9 @@
 #include "animation.h"
 
-#include <array>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
+
+#include "numbers.h"
 
 namespace tenon {
 
@@ -15,9 +15,7 @@ std::string frame_path(const std::string& output, int frame) {
 }
 
 std::string frame_definition(int frame, int frames) {
-  std::array<char, 32> time{};
-  const double t = static_cast<double>(frame) / frames;
-  return "$t=" + std::string(time.data(), std::to_chars(time.data(), time.data() + time.size(), t).ptr);
+  return "$t=" + shortest(static_cast<double>(frame) / frames);
 }
 
 }  // namespace tenon

@@ -57,7 +57,15 @@ void Checkpoint::save(const Film& film, const std::vector<SampleBox>& done, Cons
   part_.done = done;
   const Status status = write_part(path_, part_);
   part_.film = {};
-  if (!status) console.diagnostics().warn(status.error().message + "; the work goes on without this checkpoint");
+  const std::string problem = status ? "" : status.error().message;
+  if (problem != problem_) {
+    if (status) {
+      console.progress().say("tenon: '" + path_ + "' can be written again");
+    } else {
+      console.diagnostics().warn(problem + "; the work goes on without checkpoints until this is mended");
+    }
+  }
+  problem_ = problem;
 }
 
 void Checkpoint::remove() const {

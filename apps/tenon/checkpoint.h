@@ -21,7 +21,8 @@ class Checkpoint {
   /// What is in the file, to go on from; nothing where there is no file yet.
   /// @return the film, or an input error: a checkpoint of another picture
   Result<std::optional<Film>> load(const RenderOptions& options) const;
-  /// Replaces the file. Says so when it cannot: the work goes on, and the checkpoint before stays.
+  /// Replaces the file. Where it cannot, the work goes on, and the checkpoint before stays; that is said once, and
+  /// again only when something else is wrong, or nothing any more.
   void save(const Film& film, const std::vector<SampleBox>& done, Console& console);
   /// The work is done.
   void remove() const;
@@ -29,6 +30,7 @@ class Checkpoint {
  private:
   std::string path_;
   FilmPart part_;
+  std::string problem_;  // why it could not be written last time
 };
 
 }  // namespace tenon

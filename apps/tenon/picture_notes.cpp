@@ -1,28 +1,21 @@
 #include "picture_notes.h"
 
-#include <array>
-#include <charconv>
-
+#include "numbers.h"
 #include "tenon/version.h"
 
 namespace tenon {
 
 namespace {
 
-std::string number_text(double value) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
-
 std::string vector_text(const Vec3& v) {
-  return number_text(v.x) + ',' + number_text(v.y) + ',' + number_text(v.z);
+  return shortest(v.x) + ',' + shortest(v.y) + ',' + shortest(v.z);
 }
 
 std::string camera_text(const Camera& camera) {
   const std::string place =
       "from " + vector_text(camera.from) + " at " + vector_text(camera.at) + " up " + vector_text(camera.up);
-  return camera.projection == Projection::orthographic ? place + " orthographic width " + number_text(camera.width)
-                                                       : place + " fov " + number_text(camera.fov);
+  return camera.projection == Projection::orthographic ? place + " orthographic width " + shortest(camera.width)
+                                                       : place + " fov " + shortest(camera.fov);
 }
 
 }  // namespace

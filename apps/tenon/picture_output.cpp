@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -58,8 +59,16 @@ Result<std::string> encode(const Picture& picture, const PicturePlan& plan, bool
 Result<std::string> encode(const FilmPart& part, const PicturePlan& plan, int threads, Console& console) {
   const bool is_exr = plan.format == PictureFormat::exr;
   Picture picture = is_exr ? part_picture(part) : film_picture(part.film, {}, 32);
-  picture.notes = is_exr ? picture.notes : part.notes;
-  if (plan.denoise) {
+  if (!is_exr) {
+    picture.notes = part.notes;
+    picture.notes.push_back(samples_note(part));
+  }
+  const auto& samples = part.film.planes().samples;
+  const bool tells_noise = std::any_of(samples.begin(), samples.end(), [](std::uint32_t taken) { return taken > 1; });
+  if (plan.denoise && !tells_noise) {
+    console.diagnostics().warn("no pixel has more than one sample yet, so nothing tells the noise; '" + plan.output +
+                               "' keeps it");
+  } else if (plan.denoise) {
     // How many samples a pixel has, every film knows.
     if (!part.film.layers().contains(denoise_layers().remove(Layer::samples))) {
       return Error{
@@ -82,7 +91,9 @@ Status denoise(Picture& picture, const std::string& name, int threads, Console& 
   return status;
 }
 
-Result<Picture> read_picture(const std::string& path) {
+namespace {
+
+Result<std::string> read_bytes(const std::string& path) {
   std::string bytes;
   if (path == "-") {
     bytes.assign(std::istreambuf_iterator<char>(std::cin), {});
@@ -95,7 +106,21 @@ Result<Picture> read_picture(const std::string& path) {
     }
     bytes = std::move(text).str();
   }
-  return decode_exr(bytes, path == "-" ? "standard input" : path);
+  return bytes;
+}
+
+}  // namespace
+
+Result<Picture> read_picture(const std::string& path) {
+  const Result<std::string> bytes = read_bytes(path);
+  if (!bytes) return bytes.error();
+  return decode_exr(*bytes, path == "-" ? "standard input" : path);
+}
+
+Result<Picture> read_head(const std::string& path) {
+  const Result<std::string> bytes = read_bytes(path);
+  if (!bytes) return bytes.error();
+  return decode_head(*bytes, path);
 }
 
 }  // namespace tenon

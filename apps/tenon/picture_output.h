@@ -40,4 +40,7 @@ Status check_memory(double bytes, const std::string& size);
 /// Reads an EXR picture; "-" is standard input.
 Result<Picture> read_picture(const std::string& path);
 
+/// Size, window and notes of a picture's file, PNG or EXR, that is whole.
+Result<Picture> read_head(const std::string& path);
+
 }  // namespace tenon

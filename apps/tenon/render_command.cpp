@@ -7,6 +7,7 @@
 #include "checkpoint.h"
 #include "commands.h"
 #include "heat_map_arguments.h"
+#include "numbers.h"
 #include "picture_arguments.h"
 #include "picture_notes.h"
 #include "picture_output.h"
@@ -37,6 +38,7 @@ struct RenderCommand {
   Status take_heat_map(const RenderPlan& plan, const PicturePlan& file, const RenderOptions& options,
                        Console& console) const;
   Status animate(const RenderPlan& plan, const PicturePlan& file, const RenderOptions& options, Console& console) const;
+  Result<std::string> problem_of_frame(const std::string& path, const RenderOptions& options, Console& console) const;
   Status take(const RenderPlan& plan, const PicturePlan& file, const RenderOptions& options, const std::string& what,
               Console& console) const;
   /// The files of a picture, begun.
@@ -46,6 +48,7 @@ struct RenderCommand {
   };
   Result<Outputs> open_outputs(const PicturePlan& file) const;
   Result<RenderOptions> plan_options(const RenderPlan& plan, const PicturePlan& file) const;
+  void warn_of_idle_arguments(const Scene& shown, Diagnostics& diagnostics) const;
   std::string dependent_arguments(const RenderOptions& options) const;
   void say_end(Console& console, const PicturePlan& file, const FilmPart& part, const Rendering& rendering) const;
 };
@@ -62,11 +65,7 @@ std::string RenderCommand::dependent_arguments(const RenderOptions& options) con
   if (scene.cut_faces != "tool") text += " --cut-faces " + scene.cut_faces;
   text += render.view.words() + render.section_style.words();
   if (options.transparent) text += " --transparent";
-  if (options.noise > 0) {
-    char noise[48];
-    std::snprintf(noise, sizeof noise, " --noise %.17g", options.noise);
-    text += noise;
-  }
+  if (options.noise > 0) text += " --noise " + shortest(options.noise);
   return text;
 }
 
@@ -84,6 +83,11 @@ Result<RenderOptions> RenderCommand::plan_options(const RenderPlan& plan, const 
   options.transparent = render.transparent;
   options.layers = file.denoise ? file.layers | denoise_layers() : file.layers;
   if (Status status = plan_work(work, options); !status) return status.error();
+  if (file.denoise && options.end_sample.value_or(options.samples) - options.first_sample < 2) {
+    return usage_error(
+        "--denoise tells noise by what a pixel's samples differ in; take two of them at least, with --spp (and "
+        "--samples)");
+  }
   if (Status status = check_memory(Film::bytes(film_window(options), film_layers(options)), render.size); !status) {
     return status.error();
   }
@@ -99,11 +103,8 @@ void RenderCommand::say_end(Console& console, const PicturePlan& file, const Fil
                 rendering.seconds);
   std::string line = "tenon: " + (file.output == "-" ? "standard output" : file.output) + text;
   if (rendering.end != RenderEnd::finished) {
-    std::uint64_t samples = 0;
-    for (const std::uint32_t of_pixel : part.film.planes().samples) samples += of_pixel;
-    const double mean = static_cast<double>(samples) / static_cast<double>(window.pixels());
     std::snprintf(text, sizeof text, "; %s, with %.1f samples a pixel",
-                  rendering.end == RenderEnd::interrupted ? "interrupted" : "time is over", mean);
+                  rendering.end == RenderEnd::interrupted ? "interrupted" : "time is over", part.film.mean_samples());
     line += text;
   }
   console.progress().say(line);
@@ -135,21 +136,53 @@ Status RenderCommand::animate(const RenderPlan& plan, const PicturePlan& file, c
     return usage_error("--animate goes with files for the scene and the pictures, and without --stats");
   }
   RenderCommand frame = *this;
+  int were_there = 0;
   for (int i = 0; i < work.frames && noted_interrupt() == 0; ++i) {
     PicturePlan frame_file = file;
     frame_file.output = frame_path(file.output, i);
-    if (work.resume && std::filesystem::exists(frame_file.output)) continue;
     frame.scene.definitions = scene.definitions;
     frame.scene.definitions.push_back(frame_definition(i, work.frames));
+    if (work.resume && std::filesystem::exists(frame_file.output)) {
+      const Result<std::string> problem = frame.problem_of_frame(frame_file.output, options, console);
+      if (!problem) return problem.error();
+      if (problem->empty()) {
+        ++were_there;
+        continue;
+      }
+      console.diagnostics().warn(*problem + "; it is taken again");
+    }
     const std::string what = "rendering frame " + std::to_string(i + 1) + " of " + std::to_string(work.frames);
     if (Status status = frame.take(plan, frame_file, options, what, console); !status) return status;
   }
+  if (work.resume && !scene.quiet) {
+    console.progress().say("tenon: " + std::to_string(were_there) + " of " + std::to_string(work.frames) +
+                           " frames were there");
+  }
   return success();
+}
+
+// Why a frame's file is not the one that would be taken, as far as it says; empty where it is.
+Result<std::string> RenderCommand::problem_of_frame(const std::string& path, const RenderOptions& options,
+                                                    Console& console) const {
+  const Result<Picture> head = read_head(path);
+  if (!head) return head.error().message;
+  const PixelWindow window = options.crop.value_or(PixelWindow{0, 0, options.width, options.height});
+  bool is_same = head->window.width() == window.width() && head->window.height() == window.height();
+  const Result<std::string> fingerprint = scene_fingerprint(scene, console);
+  if (!fingerprint) return fingerprint.error();
+  const PictureOrigin origin{scene.path, dependent_arguments(options), *fingerprint, options.seed, {}};
+  for (const PictureNote& note : picture_notes(origin)) {
+    // The camera follows from the rest, but takes long to be chosen.
+    const std::string* found = head->note(note.key);
+    is_same = is_same && (note.key == "Camera" || (found != nullptr && *found == note.text));
+  }
+  return is_same ? "" : "'" + path + "' is of another scene or other arguments";
 }
 
 // What a picture of costs has no use for.
 Status RenderCommand::check_heat_map() const {
   const std::pair<const char*, bool> others[]{{"--denoise", picture.denoise},
+                                              {"--hatch", render.section_style.hatch},
                                               {"--layers", !picture.layers.empty()},
                                               {"--tonemap", picture.tone_curve != "none"},
                                               {"--exposure", picture.exposure != 0},
@@ -190,6 +223,19 @@ Status RenderCommand::take_heat_map(const RenderPlan& plan, const PicturePlan& f
   return success();
 }
 
+// Whether these have anything to do follows from the scene, so that they are no mistake on a command line for many.
+void RenderCommand::warn_of_idle_arguments(const Scene& shown, Diagnostics& diagnostics) const {
+  const bool is_cut = static_cast<bool>(shown.first_section_plane);
+  const auto without_cut = [&](const std::string& name) {
+    diagnostics.warn(name + " does nothing, since nothing is cut; add --cut, or section() to the scene");
+  };
+  if (render.section_style.hatch && !is_cut) without_cut("--hatch");
+  if (render.section_style.light == "keep" && !is_cut) without_cut("--cut-light keep");
+  if (!render.view.focus.empty() && shown.camera.aperture == 0) {
+    diagnostics.warn("--focus does nothing, since all is sharp without a lens; add --aperture");
+  }
+}
+
 // All files are begun before the work: better to learn that a place cannot be written now than after an hour.
 Result<RenderCommand::Outputs> RenderCommand::open_outputs(const PicturePlan& file) const {
   Result<Output> picture_file = Output::open(file.output);
@@ -207,6 +253,8 @@ Status RenderCommand::take(const RenderPlan& plan, const PicturePlan& file, cons
   const PictureRequest request{plan.view, plan.width, plan.height};
   const Result<TraceableScene> traceable = prepare(scene, tracing, console, &request);
   if (!traceable) return traceable.error();
+
+  warn_of_idle_arguments(traceable->scene, console.diagnostics());
 
   FilmPart part;
   part.layers = file.layers;
@@ -250,7 +298,7 @@ Status RenderCommand::take(const RenderPlan& plan, const PicturePlan& file, cons
   Result<Rendering> rendering = tenon::render(traceable->scene, *traceable->accelerator, options, control);
   if (!rendering) return rendering.error();
 
-  // A frame that is there is whole, so that --resume need not look into it.
+  // A frame of fewer samples would be taken for done by --resume.
   if (work.frames > 0 && rendering->end == RenderEnd::interrupted) {
     if (checkpoint) checkpoint->save(rendering->film, rendering->done, console);
     return success();

@@ -138,25 +138,39 @@ Status read_environments(std::vector<Light>& lights, Console& console) {
     if (light.file.empty()) continue;
     console.progress().begin("reading " + light.file);
     Result<LightPicture> picture = read_light(light.file);
-    if (!picture) return picture.error();
+    if (!picture) {
+      return Error{picture.error().kind, "'" + light.file + "': " + picture.error().message, light.file_named_at};
+    }
     light.map = std::make_shared<const LightMap>(LightMap{picture->width, picture->height, std::move(picture->rgb)});
   }
   return success();
 }
 
+Result<Model> load_with_pictures(const SceneArguments& arguments, Console& console) {
+  Result<Model> model = load(arguments, console);
+  if (!model) return model;
+  if (Status status = read_environments(model->lights, console); !status) return status.error();
+  return model;
+}
+
 }  // namespace
+
+Result<std::string> scene_fingerprint(const SceneArguments& arguments, Console& console) {
+  const Result<Model> model = load_with_pictures(arguments, console);
+  if (!model) return model.error();
+  return model_fingerprint(*model);
+}
 
 Result<TraceableScene> prepare(const SceneArguments& arguments, const TracingArguments& tracing, Console& console,
                                const PictureRequest* picture) {
   if (Status status = tracing.check(); !status) return status.error();
-  Result<Model> model = load(arguments, console);
+  Result<Model> model = load_with_pictures(arguments, console);
   if (!model) return model.error();
   console.progress().begin("compiling " + arguments.path);
-  const std::string scene_fingerprint = picture != nullptr ? model_fingerprint(*model) : "";
+  const std::string fingerprint = picture != nullptr ? model_fingerprint(*model) : "";
   Result<Scene> scene =
       compile_scene(std::move(*model), console.diagnostics(), picture != nullptr ? picture->view : ViewRequest{});
   if (!scene) return scene.error();
-  if (Status status = read_environments(scene->lights, console); !status) return status.error();
   std::optional<ScreenView> screen;
   if (picture != nullptr) {
     const Result<CameraRays> rays = CameraRays::create(scene->camera, picture->width, picture->height);
@@ -173,7 +187,7 @@ Result<TraceableScene> prepare(const SceneArguments& arguments, const TracingArg
     built->accelerator =
         light_of_the_whole(std::move(built->accelerator), std::move(*whole), scene->first_section_plane);
   }
-  return TraceableScene{std::move(*scene), std::move(built->accelerator), built->seconds, scene_fingerprint};
+  return TraceableScene{std::move(*scene), std::move(built->accelerator), built->seconds, fingerprint};
 }
 
 Result<BuiltAccelerator> build_timed(const std::string& spec, const Scene& scene, const ScreenView* view,

@@ -65,12 +65,15 @@ class Console {
 /// Reads and evaluates the scene file, and adds the cuts of the command line to its own.
 Result<Model> load(const SceneArguments& arguments, Console& console);
 
+/// What tells a scene from others once it is evaluated, and the pictures of its lights are read.
+Result<std::string> scene_fingerprint(const SceneArguments& arguments, Console& console);
+
 /// A scene and the structure over it.
 struct TraceableScene {
   Scene scene;
   std::unique_ptr<Accelerator> accelerator;
   double build_seconds = 0;
-  std::string fingerprint;  ///< of what the file says once it is evaluated; only where there is a picture
+  std::string fingerprint;  ///< as scene_fingerprint() says; only where there is a picture
 };
 
 /// The picture a scene is prepared for.

@@ -47,14 +47,17 @@ void SectionArguments::add_to(CLI::App& command) {
 }
 
 void SectionStyleArguments::add_to(CLI::App& command) {
-  command.add_flag("--hatch", hatch, "Draw lines across the cut faces of a section view, each material its own way");
+  CLI::Option* hatched = command.add_flag(
+      "--hatch", hatch, "Draw lines across the cut faces of a section view, each material its own way");
   command.add_option("--hatch-angle", angle, "Of the first material's lines against the picture's horizontal, degrees")
+      ->needs(hatched)
       ->type_name("A")
       ->capture_default_str();
   command
       .add_option("--hatch-spacing", spacing,
                   "Between the first material's lines: in the scene's units, and the lines lie in the cut's plane; or "
                   "in pixels, such as 8px, and they lie in the picture. Otherwise by the solid's size")
+      ->needs(hatched)
       ->type_name("S|Spx");
   command
       .add_option("--cut-light", light,

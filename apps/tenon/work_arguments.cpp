@@ -103,7 +103,7 @@ void WorkArguments::add_to(CLI::App& command) {
   command.add_flag(
       "--resume", resume,
       "Go on from the file of --checkpoint, where there is one, to the same bytes as without a break; with "
-      "--animate, leave frames alone that are there");
+      "--animate, leave frames alone that are there, whole and of the same scene and arguments");
 }
 
 Status plan_work(const WorkArguments& arguments, RenderOptions& options) {

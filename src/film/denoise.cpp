@@ -324,9 +324,8 @@ Status denoise(Picture& picture, const std::string& name, const DenoiseOptions& 
                      layers_text(denoise_layers()),
                  {}};
   }
-  const auto is_known = [](float variance) { return variance > 0; };
-  const std::vector<float>& variance = picture.find("variance.G")->values;
-  if (std::none_of(variance.begin(), variance.end(), is_known)) {
+  const std::vector<std::uint32_t>& samples = picture.find("samples")->numbers;
+  if (std::none_of(samples.begin(), samples.end(), [](std::uint32_t taken) { return taken > 1; })) {
     return Error{
         ErrorKind::input,
         "nothing is known of the noise in '" + name + "'; render it with --spp 2 at least, or leave it as it is",

@@ -129,6 +129,12 @@ Film Film::cropped(const PixelWindow& window) const {
   return film;
 }
 
+double Film::mean_samples() const {
+  std::uint64_t sum = 0;
+  for (const std::uint32_t of_pixel : planes_.samples) sum += of_pixel;
+  return static_cast<double>(sum) / static_cast<double>(window_.pixels());
+}
+
 Rgb Film::light(int x, int y) const {
   return mean(planes_.light, window_.index(x, y), samples(x, y));
 }

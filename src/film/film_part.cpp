@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdio>
 #include <optional>
 #include <string_view>
 #include <tuple>
@@ -15,9 +16,9 @@ namespace tenon {
 namespace {
 
 // Attributes of their own: what a FilmPart says beside its notes.
-constexpr std::string_view samples_note = "samplesPerPixel", done_note = "samplesDone", layers_note = "layers",
-                           bits_note = "bits", background_note = "background";
-constexpr std::array own_notes{samples_note, done_note, layers_note, bits_note, background_note};
+constexpr std::string_view taken_note = "Samples", most_note = "samplesPerPixel", done_note = "samplesDone",
+                           layers_note = "layers", bits_note = "bits", background_note = "background";
+constexpr std::array own_notes{taken_note, most_note, done_note, layers_note, bits_note, background_note};
 constexpr std::string_view sums_prefix = "sums.";
 
 std::string channel_name(std::string_view plane, std::size_t word) {
@@ -159,9 +160,21 @@ double FilmPart::share() const {
   return static_cast<double>(sum) / (static_cast<double>(film.width()) * film.height() * samples);
 }
 
+PictureNote samples_note(const FilmPart& part) {
+  const double taken = part.film.mean_samples();
+  char text[64];
+  if (taken == part.samples) {
+    std::snprintf(text, sizeof text, "%u a pixel", part.samples);
+  } else {
+    std::snprintf(text, sizeof text, "%.1f of %u a pixel", taken, part.samples);
+  }
+  return {std::string(taken_note), text};
+}
+
 Picture part_picture(const FilmPart& part) {
   Picture picture = film_picture(part.film, part.layers, part.bits);
   picture.notes = part.notes;
+  picture.notes.push_back(samples_note(part));
   const bool complete = part.is_complete();
   if (complete && !part.layers.has(Layer::sums)) return picture;
   const auto write = [&](std::string_view name, auto plane_of) {
@@ -171,7 +184,7 @@ Picture part_picture(const FilmPart& part) {
   for_each_first(write);
   std::string done;
   for (const SampleBox& box : part.done) done += (done.empty() ? "" : " ") + box_text(box);
-  picture.notes.push_back({std::string(samples_note), std::to_string(part.samples)});
+  picture.notes.push_back({std::string(most_note), std::to_string(part.samples)});
   picture.notes.push_back({std::string(layers_note), layers_text(part.layers)});
   picture.notes.push_back({std::string(bits_note), std::to_string(part.bits)});
   picture.notes.push_back({std::string(background_note), part.transparent ? "left out" : "there"});
@@ -183,7 +196,7 @@ Result<FilmPart> read_part(const Picture& picture, const std::string& name) {
   const auto damaged = [&](const char* what) {
     return Error{ErrorKind::input, "'" + name + "' is damaged: " + what, {}};
   };
-  const std::string* samples = picture.note(samples_note);
+  const std::string* samples = picture.note(most_note);
   const std::string* done = picture.note(done_note);
   const std::string* layers = picture.note(layers_note);
   const std::string* bits = picture.note(bits_note);

@@ -5,6 +5,7 @@
 #include "lang/color_value.h"
 #include "lang/module_arguments.h"
 #include "lang/source_files.h"
+#include "lang/source_text.h"
 
 namespace tenon::lang {
 
@@ -178,6 +179,7 @@ std::optional<Solid> light(ModuleCall& call) {
   const Vec3 ahead = here.direction({0, 1, 0});
   l.turn = number(arguments, turn, 0) + std::atan2(-ahead.x, ahead.y) * (180 / std::numbers::pi);
   l.file = environment_file(arguments);
+  if (!l.file.empty()) l.file_named_at = locate(arguments.at(file));
   l.position = here.point(l.position);
   if (l.kind == LightKind::rectangle) {
     set_sides(arguments, l);

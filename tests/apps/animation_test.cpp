@@ -37,15 +37,42 @@ TEST_F(Animation, FramesAreNumberedAndTimeGoesOn) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out/turn00004.png"));
 }
 
-TEST_F(Animation, ResumeLeavesFramesAloneThatAreThere) {
-  ASSERT_EQ(run(words({"--animate", "3"})).status, 0);
-  const std::string first = read("turn00000.png");
-  write("turn00001.png", "mine");
-  std::filesystem::remove(folder / "turn00002.png");
-  ASSERT_EQ(run(words({"--animate", "3", "--resume"})).status, 0);
-  EXPECT_EQ(read("turn00000.png"), first);
-  EXPECT_EQ(read("turn00001.png"), "mine");
-  EXPECT_EQ(read("turn00002.png").substr(0, 4), "\x89PNG");
+TEST_F(Animation, ResumeTakesWhatIsNotThere) {
+  for (const std::string suffix : {".png", ".exr"}) {
+    const auto frame = [&](int i) { return "turn0000" + std::to_string(i) + suffix; };
+    const std::vector<std::string> animate{"--animate", "5", "-o", "turn" + suffix};
+    ASSERT_EQ(run(words(animate)).status, 0);
+    std::vector<std::string> whole;
+    for (int i = 0; i < 5; ++i) whole.push_back(read(frame(i)));
+    write(frame(1), "foreign");
+    write(frame(2), whole[2].substr(0, whole[2].size() * 2 / 3));
+    std::filesystem::remove(folder / frame(3));
+    write(frame(4), whole[0]);
+    const auto first_written = std::filesystem::last_write_time(folder / frame(0));
+    const Outcome outcome =
+        run({"render", "turn.scad", "--size", "40x30", "--animate", "5", "-o", "turn" + suffix, "--resume"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    for (int i = 0; i < 5; ++i) {
+      EXPECT_EQ(read(frame(i)), whole[static_cast<std::size_t>(i)]) << i;
+      const bool is_told = contains(outcome.err, "warning: '" + frame(i) + "'");
+      EXPECT_EQ(is_told, i == 1 || i == 2 || i == 4) << outcome.err;
+    }
+    EXPECT_EQ(std::filesystem::last_write_time(folder / frame(0)), first_written);
+    EXPECT_TRUE(contains(outcome.err, "1 of 5 frames were there")) << outcome.err;
+  }
+}
+
+TEST_F(Animation, ResumeTakesFramesOfOtherArgumentsAgain) {
+  ASSERT_EQ(run(words({"--animate", "2"})).status, 0);
+  for (const std::vector<std::string>& other : std::vector<std::vector<std::string>>{
+           {"--crop", "0,0,20,30"}, {"--depth", "3"}, {"--spp", "2"}, {"-D", "x=1"}}) {
+    std::vector<std::string> more{"--animate", "2", "--resume"};
+    more.insert(more.end(), other.begin(), other.end());
+    const Outcome outcome = run(words(more));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "'turn00001.png' is of another scene or other arguments")) << outcome.err;
+    EXPECT_EQ(run(words(more)).err, "") << "they are there now";
+  }
 }
 
 TEST_F(Animation, InterruptLeavesNoFrameHalfDone) {

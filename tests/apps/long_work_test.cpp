@@ -90,6 +90,42 @@ TEST_F(LongWork, PartSaysHowMuchIsThere) {
   EXPECT_TRUE(contains(outcome.err, "50.0 %")) << outcome.err;
 }
 
+TEST_F(LongWork, PictureSaysHowManySamplesItHas) {
+  const auto says = [&](const std::string& name, const std::string& text) { return contains(read(name), text); };
+  expect_done(render({"-o", "a.png", "--samples", "0:3"}));
+  EXPECT_TRUE(says("a.png", "3.0 of 6 a pixel"));
+  expect_done(render({"-o", "a.exr", "--samples", "0:3"}));
+  EXPECT_TRUE(says("a.exr", "3.0 of 6 a pixel"));
+  expect_done(render({"-o", "b.exr", "--samples", "3:6"}));
+  for (const std::string name : {"all.exr", "all.png"}) {
+    expect_done({"merge", "-q", "-o", name, "a.exr", "b.exr"});
+    EXPECT_TRUE(says(name, "6 a pixel")) << name;
+  }
+  expect_done({"render", "ball.scad", "-q", "--size", "200x150", "--time", "0.2", "-o", "time.png"});
+  EXPECT_TRUE(says("time.png", " of 65536 a pixel"));
+}
+
+TEST_F(LongWork, TimeMayEndBeforeNoiseIsKnown) {
+  const Outcome outcome = run({"render", "ball.scad", "-q", "--size", "200x150", "--integrator", "path", "--time",
+                               "0.001", "--denoise", "-o", "out.png"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.err, "no pixel has more than one sample yet")) << outcome.err;
+  EXPECT_EQ(read("out.png").substr(0, 4), "\x89PNG");
+}
+
+TEST_F(LongWork, MergeSeesThatTheLightHasChanged) {
+  write("ball.scad", "light(type = \"environment\", file = \"sky.exr\"); sphere(1);\n");
+  write("floor.scad", "camera(from = [0, -3, 3], at = [0, 0, 0]); cube(1);\n");
+  for (const std::string part : {"a", "b"}) {
+    expect_done(
+        {"render", "floor.scad", "-q", "--size", part == "a" ? "8x4" : "16x8", "--layers", "none", "-o", "sky.exr"});
+    expect_done(render({"-o", part + ".exr", "--samples", part == "a" ? "0:3" : "3:6"}));
+  }
+  const Outcome outcome = run({"merge", "a.exr", "b.exr", "-o", "x.png"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(contains(outcome.err, "of another picture")) << outcome.err;
+}
+
 TEST_F(LongWork, MergeSeesThatAMeshHasChanged) {
   const auto tetrahedron = [&](const std::string& top) {
     const std::string a = "0 0 0", b = "1 0 0", c = "0 1 0", d = "0 0 " + top;
@@ -174,7 +210,9 @@ TEST_F(LongWork, CheckpointThatFindsNoRoomIsAWarningAndTheOneBeforeStays) {
       words, {"-o", "out.png", "--checkpoint", "work.exr", "--checkpoint-every", "0.01", "--resume", "--time", "2"}));
   setrlimit(RLIMIT_FSIZE, &old);
   const Outcome outcome = wait_for(child);
-  EXPECT_TRUE(contains(outcome.err, "the work goes on without this checkpoint")) << outcome.err;
+  const std::string warning = "the work goes on without checkpoints until this is mended";
+  ASSERT_TRUE(contains(outcome.err, warning)) << outcome.err;
+  EXPECT_FALSE(contains(outcome.err.substr(outcome.err.find(warning) + 1), warning)) << outcome.err;
   EXPECT_EQ(read("work.exr"), before);
 }
 

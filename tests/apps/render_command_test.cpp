@@ -174,21 +174,45 @@ TEST_F(RenderCommand, HatchesLightAndLens) {
     different.insert(picture(words));
   }
   EXPECT_EQ(different.size(), 9u);
-  for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{{"--hatch-spacing", "0"},
-                                                                                     {"--hatch-spacing", "px"},
-                                                                                     {"--hatch-spacing", "-3px"},
-                                                                                     {"--cut-light", "on"},
-                                                                                     {"--cut-faces", "both"},
-                                                                                     {"--aperture", "-1"},
-                                                                                     {"--focus", "1,2"},
-                                                                                     {"--view", "1"},
-                                                                                     {"--view", "0,91"}}) {
+  for (const std::vector<std::string>& wrong :
+       std::vector<std::vector<std::string>>{{"--hatch-spacing", "0", "--hatch"},
+                                             {"--hatch-spacing", "px", "--hatch"},
+                                             {"--hatch-spacing", "-3px", "--hatch"},
+                                             {"--hatch-spacing", "3"},
+                                             {"--cut-light", "on"},
+                                             {"--cut-faces", "both"},
+                                             {"--aperture", "-1"},
+                                             {"--focus", "1,2"},
+                                             {"--view", "1"},
+                                             {"--view", "0,91"}}) {
     std::vector<std::string> all{"render", "ball.scad", "-q"};
     all.insert(all.end(), wrong.begin(), wrong.end());
     const Outcome outcome = run(all);
     EXPECT_EQ(outcome.status, 2) << wrong[0] << ' ' << wrong[1];
     EXPECT_TRUE(contains(outcome.err, wrong[0])) << outcome.err;
   }
+}
+
+// What a scene decides: with a cut or a lens of its own there is nothing to warn of.
+TEST_F(RenderCommand, ArgumentsThatDoNothingAreToldSo) {
+  write("plain.scad", "sphere(1);");
+  write("cut.scad", "section([0, -1, 0]); camera(from = [0, -9, 0], at = [0, 0, 0], aperture = 0.1); sphere(1);");
+  for (const auto& [word, value] : {std::pair("--hatch", ""), {"--cut-light", "keep"}, {"--focus", "5"}}) {
+    for (const std::string scene : {"plain.scad", "cut.scad"}) {
+      std::vector<std::string> words{"render", scene, "-q", "--size", "8x6", "-o", "x.png", word};
+      if (*value != 0) words.emplace_back(value);
+      const Outcome outcome = run(words);
+      EXPECT_EQ(outcome.status, 0) << outcome.err;
+      EXPECT_EQ(contains(outcome.err, std::string("warning: ") + word), scene == "plain.scad") << outcome.err;
+      EXPECT_EQ(contains(outcome.err, "does nothing"), scene == "plain.scad") << outcome.err;
+    }
+  }
+}
+
+TEST_F(RenderCommand, MetadataIsAsItWasGiven) {
+  ASSERT_EQ(run({"render", "ball.scad", "-q", "--size", "8x6", "--noise", "0.05", "-o", "x.png"}).status, 0);
+  EXPECT_TRUE(contains(read("x.png"), " --noise 0.05")) << read("x.png");
+  EXPECT_FALSE(contains(read("x.png"), "0.0500"));
 }
 
 TEST_F(RenderCommand, FitFillsThePictureWhateverItsShape) {
@@ -254,16 +278,16 @@ TEST_F(RenderCommand, CellsTestFewOfThePrimitivesWhoseBoxesOverlap) {
 TEST_F(RenderCommand, WrongScenesLeaveNothing) {
   write("empty.scad", "");
   write("syntax.scad", "sphere(1);\ncube(2;\n");
+  write("dark.scad", "light(type = \"environment\",\n  file = \"broken.hdr\"); sphere(1);\n");
+  write("broken.hdr", "no picture");
   write("junk.scad", std::string("\x7f"
                                  "ELF\x02\x01\x00\x00\xff\xfe\x80",
                                  11) +
                          std::string(5000, '\xaa'));
   std::filesystem::create_directory(folder / "folder.scad");
-  const std::vector<std::pair<std::string, std::string>> wrong{{"missing.scad", "missing.scad"},
-                                                               {"folder.scad", "folder.scad"},
-                                                               {"empty.scad", "solid"},
-                                                               {"syntax.scad", "syntax.scad:2:"},
-                                                               {"junk.scad", "junk.scad"}};
+  const std::vector<std::pair<std::string, std::string>> wrong{
+      {"missing.scad", "missing.scad"},  {"folder.scad", "folder.scad"},          {"empty.scad", "solid"},
+      {"syntax.scad", "syntax.scad:2:"}, {"dark.scad", "dark.scad:2:3: error: "}, {"junk.scad", "junk.scad"}};
   const std::size_t before = files();
   for (const auto& [scene, part] : wrong) {
     const Outcome outcome = run({"render", scene, "-o", "out.png", "--stats", "s.json", "-q"});

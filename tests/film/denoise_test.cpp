@@ -199,6 +199,12 @@ TEST(Denoise, SameBytesForAnyThreads) {
   EXPECT_EQ(one.picture.channels, many.picture.channels);
 }
 
+TEST(Denoise, PictureWithoutNoiseStays) {
+  Wall certain(0.5, 0, 1);
+  certain.denoise();
+  EXPECT_EQ(certain.error(0.5), 0);
+}
+
 TEST(Denoise, SaysWhatAPictureLacks) {
   Wall lacking(0.5, 0.2, 1);
   lacking.picture.channels.erase(std::find_if(lacking.picture.channels.begin(), lacking.picture.channels.end(),
@@ -208,8 +214,9 @@ TEST(Denoise, SaysWhatAPictureLacks) {
   EXPECT_EQ(status.error().message,
             "'x.exr' has no channel variance.R, which denoising goes by; render it with --layers "
             "Z,N,albedo,ids,samples,variance");
-  Wall certain(0.5, 0, 1);
-  EXPECT_FALSE(denoise(certain.picture, "x.exr", {}).ok());
+  Wall once(0.5, 0.2, 1);
+  const_cast<PictureChannel*>(once.picture.find("samples"))->numbers.assign(pixels, 1);
+  EXPECT_FALSE(denoise(once.picture, "x.exr", {}).ok());
 }
 
 }  // namespace

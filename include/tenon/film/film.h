@@ -71,6 +71,8 @@ class Film {
 
   /// How many samples a pixel has.
   std::uint32_t samples(int x, int y) const { return planes_.samples[window_.index(x, y)]; }
+  /// The mean of that over all pixels.
+  double mean_samples() const;
   /// Means over a pixel's samples; 0 where it has none.
   Rgb light(int x, int y) const;
   double alpha(int x, int y) const;

@@ -38,7 +38,12 @@ struct FilmPart {
 /// Boxes joined where they make a larger box; in the same order whatever order they come in.
 std::vector<SampleBox> joined(std::vector<SampleBox> boxes);
 
-/// The picture of a part, with its notes. A part that is not complete, or has Layer::sums, carries its exact sums.
+/// How many samples a pixel has, on average, and how many it was to have at most: "64 a pixel", or "12.5 of 65536 a
+/// pixel" where time was over, there was little noise left, or only a part was asked for.
+PictureNote samples_note(const FilmPart& part);
+
+/// The picture of a part, with its notes and samples_note(). A part that is not complete, or has Layer::sums, carries
+/// its exact sums.
 Picture part_picture(const FilmPart& part);
 
 /// Reads a part back.

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tenon/base/error.h"
 #include "tenon/math/color.h"
 #include "tenon/math/vec3.h"
 
@@ -32,6 +33,7 @@ struct Light {
   double turbidity = 3;      ///< sky: haze, from 2 (clear) to 10
   double turn = 0;           ///< environment: around z, degrees, counterclockwise from above
   std::string file;          ///< environment: the picture; none: light of one colour from everywhere
+  SourceLocation file_named_at;         ///< where the scene says so
   std::shared_ptr<const LightMap> map;  ///< environment: the picture, once it is read
   Rgba color{1, 1, 1, 1};
 
