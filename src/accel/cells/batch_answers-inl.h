@@ -41,6 +41,18 @@ struct BatchFindings {
     unsure = rays.unsound;
   }
 
+  /// The rays that have a boundary, a bit each. @param padded  of the batch
+  std::uint64_t Met(std::size_t padded) const {
+    const hn::Rebind<std::uint32_t, RayBatch::F> u;
+    std::uint64_t met = 0;
+    for (std::size_t i = 0; i < padded; i += RayBatch::float_lanes) {
+      std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(u, hn::Ne(hn::LoadU(u, &cell[i]), hn::Set(u, none)), bits);
+      met |= static_cast<std::uint64_t>(bits[0] | bits[1] << 8) << i;
+    }
+    return met;
+  }
+
   static constexpr std::uint8_t flags_of(bool enters, bool inside, bool crowded) {
     return static_cast<std::uint8_t>((enters ? entering : 0) | (inside ? was_inside : 0) | (crowded ? group : 0));
   }
@@ -53,16 +65,23 @@ class BatchAnswers {
   BatchAnswers(const CellTree& tree, double together, const RayBatch& batch, const BatchFindings& findings)
       : cells_(tree), together_(together), rays_(batch), found_(findings) {}
 
-  void Write(std::span<CellAnswer> answers, SingleTracer& single, std::vector<Run>& runs,
+  /// @param begin  the place of the batch's first ray among those of the sink
+  template <class Sink>
+  void Write(std::size_t begin, const Sink& sink, SingleTracer& single, std::vector<Run>& runs,
              TraversalStatistics& statistics) const {
     std::uint64_t finished = 0;
-    if (single.wanted() != Wanted::occlusion) {
-      finished = FinishTogether(answers);
+    if constexpr (Sink::wanted == Wanted::occlusion) {
+      finished = FinishOcclusion(begin, sink);
+    } else {
+      finished = FinishMisses(begin, sink) | FinishTogether(begin, sink);
       const std::uint64_t groups = Groups();
-      if (groups != 0) finished |= FinishGroups(groups, single.wanted() == Wanted::hit, runs, answers);
+      if (groups != 0) finished |= FinishGroups(groups, runs, begin, sink);
     }
-    for (std::size_t i = 0; i < rays_.count; ++i) {
-      if ((finished >> i & 1) == 0) Answer(i, answers[i], single, statistics);
+    for (std::uint64_t left = ~finished & AllRays(); left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      CellAnswer answer;
+      Answer(i, answer, single, statistics);
+      sink.put(begin + i, answer);
     }
   }
 
@@ -73,10 +92,40 @@ class BatchAnswers {
   // Where fewer share a leaf, or a cell, it is not worth a vector of their own (by trial on the bench).
   static constexpr int least_neighbours = 3;
 
+  std::uint64_t AllRays() const { return ~std::uint64_t{0} >> (RayBatch::most_rays - rays_.count); }
+
+  // Rays that meet nothing, for certain. @return them
+  template <class Sink>
+  std::uint64_t FinishMisses(std::size_t begin, const Sink& sink) const {
+    const std::uint64_t misses = ~found_.Met(rays_.padded) & ~found_.unsure & AllRays();
+    for (std::uint64_t left = misses; left != 0; left &= left - 1) {
+      sink.put(begin + static_cast<std::size_t>(std::countr_zero(left)), CellAnswer{});
+    }
+    return misses;
+  }
+
+  // Rays of which it is certain whether they meet something before their end. @return them
+  template <class Sink>
+  std::uint64_t FinishOcclusion(std::size_t begin, const Sink& sink) const {
+    const D d;
+    std::uint64_t before_end = 0;
+    for (std::size_t at = 0; at < rays_.count; at += double_lanes) {
+      const auto near = hn::Load(d, rays_.near + at);
+      const auto t = hn::Add(hn::Load(d, found_.t + at), hn::Load(d, rays_.start + at));
+      const auto certain = hn::Lt(hn::MulAdd(hn::Set(d, 2.0), near, t), hn::Load(d, rays_.end + at));
+      before_end |= static_cast<std::uint64_t>(RayBatch::Bits(certain)) << at;
+    }
+    const std::uint64_t met = found_.Met(rays_.padded);
+    const std::uint64_t finished = (before_end | ~met) & ~found_.unsure & AllRays();
+    for (std::size_t i = 0; i < rays_.count; ++i) sink.put_known(begin + i, (met >> i & 1) != 0);
+    return finished;
+  }
+
   // SingleTracer::Finish for rays that do not start on the leaf that they meet: neighbours that meet the same one, and
   // then those that meet leaves of one kind.
   // @return the rays whose answers are complete
-  HWY_NOINLINE std::uint64_t FinishTogether(std::span<CellAnswer> answers) const {
+  template <class Sink>
+  HWY_NOINLINE std::uint64_t FinishTogether(std::size_t begin, const Sink& sink) const {
     std::uint64_t finished = 0;
     std::array<std::uint64_t, kinds> rest{};
     for (std::size_t at = 0; at < rays_.count; at += double_lanes) {
@@ -96,12 +145,12 @@ class BatchAnswers {
         if (std::popcount(same) < least_neighbours || shape.kind() == ShapeKind::general) {
           rest[static_cast<std::size_t>(shape.kind())] |= std::uint64_t{same} << at;
         } else {
-          finished |= FinishNeighbours(at, shape, same, answers);
+          finished |= FinishNeighbours(at, shape, same, begin, sink);
         }
       }
     }
     for (std::size_t kind = static_cast<std::size_t>(ShapeKind::general) + 1; kind < kinds; ++kind) {
-      while (rest[kind] != 0) finished |= FinishSome(static_cast<ShapeKind>(kind), rest[kind], answers);
+      while (rest[kind] != 0) finished |= FinishSome(static_cast<ShapeKind>(kind), rest[kind], begin, sink);
     }
     return finished;
   }
@@ -117,8 +166,9 @@ class BatchAnswers {
   }
 
   // SingleTracer::FinishGroup for neighbours that meet the same cell, and do not start there.
-  HWY_NOINLINE std::uint64_t FinishGroups(std::uint64_t groups, bool wants_faces, std::vector<Run>& runs,
-                                          std::span<CellAnswer> answers) const {
+  template <class Sink>
+  HWY_NOINLINE std::uint64_t FinishGroups(std::uint64_t groups, std::vector<Run>& runs, std::size_t begin,
+                                          const Sink& sink) const {
     std::uint64_t finished = 0;
     for (std::size_t at = 0; at < rays_.count; at += double_lanes) {
       std::uint32_t left = static_cast<std::uint32_t>(groups >> at) & ((1U << double_lanes) - 1);
@@ -131,14 +181,15 @@ class BatchAnswers {
         }
         left &= ~same;
         if (std::popcount(same) < least_neighbours) continue;
-        finished |= FinishGroup(at, cells_.cells[cell], same, wants_faces, runs, answers);
+        finished |= FinishGroup(at, cells_.cells[cell], same, runs, begin, sink);
       }
     }
     return finished;
   }
 
-  std::uint64_t FinishGroup(std::size_t at, const Cell& cell, std::uint32_t lanes, bool wants_faces,
-                            std::vector<Run>& runs, std::span<CellAnswer> answers) const {
+  template <class Sink>
+  std::uint64_t FinishGroup(std::size_t at, const Cell& cell, std::uint32_t lanes, std::vector<Run>& runs,
+                            std::size_t begin, const Sink& sink) const {
     const D d;
     const RayLanes<D> rays = Rays([&](const double* values) { return hn::Load(d, values + at); });
     const auto length = hn::Load(d, rays_.length + at);
@@ -159,12 +210,12 @@ class BatchAnswers {
       const auto leaves = std::span(cell.leaves).first(cell.leaf_count);
       const bool starts_here = std::ranges::any_of(leaves, [&](LeafId leaf) { return start_face(query, leaf) >= 0; });
       if (starts_here || !(t - 2 * near > near)) continue;
-      CellAnswer& answer = answers[i];
-      answer = CellAnswer{};
-      const CellStretch stretch{t - 2 * near, t + 2 * near, 0.5 * near, together_ * near, wants_faces};
+      CellAnswer answer;
+      const CellStretch stretch{t - 2 * near, t + 2 * near, 0.5 * near, together_ * near, Sink::wanted == Wanted::hit};
       if (MeetChords(cell, chords, lane, stretch, runs, answer) != Outcome::met) continue;
       answer.kind = answer.t < query.t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
       answer.cell = found_.cell[i];
+      sink.put(begin + i, answer);
       done |= std::uint64_t{1} << i;
     }
     return done;
@@ -176,8 +227,9 @@ class BatchAnswers {
            start_face(rays_.queries[i], found_.leaf[i]) < 0;
   }
 
-  std::uint64_t FinishNeighbours(std::size_t at, ShapeRef shape, std::uint32_t lanes,
-                                 std::span<CellAnswer> answers) const {
+  template <class Sink>
+  std::uint64_t FinishNeighbours(std::size_t at, ShapeRef shape, std::uint32_t lanes, std::size_t begin,
+                                 const Sink& sink) const {
     const D d;
     std::array<std::uint8_t, double_lanes> places;
     for (std::size_t lane = 0; lane < double_lanes; ++lane) places[lane] = static_cast<std::uint8_t>(at + lane);
@@ -185,11 +237,12 @@ class BatchAnswers {
     const auto take_shape = [&]<class Shape>(const std::vector<Shape>& list) {
       return SharedShape<D, Shape>(list[shape.index()]);
     };
-    return Complete(FindCrossings(shape.kind(), take, take_shape, places), places, lanes, answers);
+    return Complete(shape.kind(), take, take_shape, places, lanes, begin, sink);
   }
 
   // @param left  rays that meet leaves of the kind; those that are dealt with are taken out
-  std::uint64_t FinishSome(ShapeKind kind, std::uint64_t& left, std::span<CellAnswer> answers) const {
+  template <class Sink>
+  std::uint64_t FinishSome(ShapeKind kind, std::uint64_t& left, std::size_t begin, const Sink& sink) const {
     const D d;
     std::array<std::uint8_t, double_lanes> places;
     std::uint32_t lanes = 0;
@@ -213,21 +266,7 @@ class BatchAnswers {
       }
       return shapes;
     };
-    return Complete(FindCrossings(kind, take, take_shapes, places), places, lanes, answers);
-  }
-
-  // The chords of the rays at some places; of a torus the crossing that each of them meets, for both ends.
-  template <class Take, class TakeShapes>
-  HWY_INLINE ChordLanes<D> FindCrossings(ShapeKind kind, const Take& take, const TakeShapes& take_shapes,
-                                         const std::array<std::uint8_t, double_lanes>& places) const {
-    const D d;
-    if (kind != ShapeKind::torus) {
-      return FindChord(d, Rays(take), cells_.shapes, kind, take_shapes, -1, cells_.scale.reach, take(rays_.length));
-    }
-    const auto enters = TakeEach(
-        d, [&](std::size_t lane) { return (found_.flags[places[lane]] & BatchFindings::entering) != 0 ? 1.0 : 0.0; });
-    return TorusCrossing(d, Rays(take), take_shapes(cells_.shapes.tori), hn::Add(take(found_.t), take(rays_.start)),
-                         hn::Gt(enters, hn::Zero(d)));
+    return Complete(kind, take, take_shapes, places, lanes, begin, sink);
   }
 
   template <class Take>
@@ -242,30 +281,45 @@ class BatchAnswers {
     return ray;
   }
 
-  // The answers of rays whose exact chords are known, where they are certain.
-  std::uint64_t Complete(const ChordLanes<D>& chord, const std::array<std::uint8_t, double_lanes>& places,
-                         std::uint32_t lanes, std::span<CellAnswer> answers) const {
+  // The answers of rays at some places that meet leaves of one kind, where the crossing of spans() is certain.
+  // @param take, take_shapes  called with a list of numbers, or of shapes: those of the places
+  // @param lanes              the places that matter
+  template <class Take, class TakeShapes, class Sink>
+  HWY_INLINE std::uint64_t Complete(ShapeKind kind, const Take& take, const TakeShapes& take_shapes,
+                                    const std::array<std::uint8_t, double_lanes>& places, std::uint32_t lanes,
+                                    std::size_t begin, const Sink& sink) const {
     const D d;
-    HWY_ALIGN double ends[2][double_lanes];
-    HWY_ALIGN double faces[2][double_lanes];
-    hn::Store(chord.leave, d, ends[0]);
-    hn::Store(chord.enter, d, ends[1]);
-    hn::Store(chord.leave_face, d, faces[0]);
-    hn::Store(chord.enter_face, d, faces[1]);
+    std::uint8_t entering[8] = {};
+    for (std::size_t lane = 0; lane < double_lanes; ++lane) {
+      entering[0] |= static_cast<std::uint8_t>((found_.flags[places[lane]] & BatchFindings::entering) << lane);
+    }
+    const auto enters = hn::LoadMaskBits(d, entering);
+    const auto about = hn::Add(take(found_.t), take(rays_.start));
+    CrossingLanes<D> end;
+    if (kind == ShapeKind::torus) {
+      end = TorusCrossing(d, Rays(take), take_shapes(cells_.shapes.tori), about, enters);
+    } else {
+      end = FindCrossing(d, Rays(take), cells_.shapes, kind, take_shapes, -1, cells_.scale.reach, take(rays_.length),
+                         enters);
+    }
+    const auto sure = hn::AndNot(end.unsure, hn::Le(hn::Abs(hn::Sub(end.t, about)), take(rays_.near)));
+    const std::uint32_t in_time = RayBatch::Bits(hn::Lt(end.t, take(rays_.end)));
+    HWY_ALIGN double t[double_lanes];
+    HWY_ALIGN double face[double_lanes];
+    hn::Store(end.t, d, t);
+    hn::Store(end.face, d, face);
     std::uint64_t done = 0;
-    for (lanes &= RayBatch::Bits(hn::AndNot(chord.unsure, chord.hit)); lanes != 0; lanes &= lanes - 1) {
+    for (lanes &= RayBatch::Bits(sure); lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
       const std::size_t i = places[lane];
-      const std::size_t end = found_.flags[i] & BatchFindings::entering;
-      if (!(std::fabs(ends[end][lane] - (found_.t[i] + rays_.start[i])) <= rays_.near[i])) continue;
-      CellAnswer& answer = answers[i];
-      answer = CellAnswer{};
-      answer.t = ends[end][lane];
-      answer.kind = answer.t < rays_.queries[i].t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
+      CellAnswer answer;
+      answer.t = t[lane];
+      answer.kind = (in_time >> lane & 1) != 0 ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
       answer.cell = found_.cell[i];
-      answer.surface = {found_.leaf[i], static_cast<std::uint32_t>(faces[end][lane])};
-      answer.leaf_entering = end != 0;
+      answer.surface = {found_.leaf[i], static_cast<std::uint32_t>(face[lane])};
+      answer.leaf_entering = (found_.flags[i] & BatchFindings::entering) != 0;
       answer.before = (found_.flags[i] & BatchFindings::was_inside) != 0;
+      sink.put(begin + i, answer);
       done |= std::uint64_t{1} << i;
     }
     return done;
@@ -274,18 +328,12 @@ class BatchAnswers {
   void Answer(std::size_t i, CellAnswer& answer, SingleTracer& single, TraversalStatistics& statistics) const {
     const RayQuery& query = rays_.queries[i];
     if ((found_.unsure >> i & 1) != 0) return single.Trace(query, answer, statistics[query.kind]);
-    answer = CellAnswer{};
-    if (found_.cell[i] == BatchFindings::none) return;
     const Cell& cell = cells_.cells[found_.cell[i]];
     answer.cell = found_.cell[i];
     answer.t = found_.t[i] + rays_.start[i];
     answer.surface = {found_.leaf[i], 0};
     answer.leaf_entering = (found_.flags[i] & BatchFindings::entering) != 0;
     answer.before = (found_.flags[i] & BatchFindings::was_inside) != 0;
-    if (single.wanted() == Wanted::occlusion && answer.t + 2 * rays_.near[i] < rays_.end[i]) {
-      answer.kind = CellAnswer::Kind::boundary;
-      return;
-    }
     single.BeginKnown(query);
     if ((found_.flags[i] & BatchFindings::group) != 0) {
       single.FinishGroup(cell, answer);

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include <hwy/cache_control.h>
-
 #include "primitive/dispatch.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -20,12 +18,15 @@ HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
 
-void TraceOneByOne(SingleTracer& single, std::span<const RayQuery> queries, std::span<CellAnswer> answers,
-                   TraversalStatistics& statistics) {
+template <class Sink>
+HWY_INLINE void TraceOneByOne(SingleTracer& single, std::span<const RayQuery> queries, const Sink& sink,
+                              TraversalStatistics& statistics) {
   for (std::size_t i = 0; i < queries.size(); ++i) {
     TraversalCounters& counters = statistics[queries[i].kind];
     ++counters.rays;
-    single.Trace(queries[i], answers[i], counters);
+    CellAnswer answer;
+    single.Trace(queries[i], answer, counters);
+    sink.put(i, answer);
   }
 }
 
@@ -35,29 +36,31 @@ constexpr std::size_t least_batch = 8;
 // bench).
 constexpr std::size_t streams_after_block = 7;
 
-// Asks for what lies further on in memory before it is needed.
-HWY_INLINE void Prefetch(std::span<const RayQuery> queries) {
-  const auto* first = reinterpret_cast<const char*>(queries.data());
-  for (std::size_t byte = 0; byte < queries.size_bytes(); byte += 64) hwy::Prefetch(first + byte);
+void CountRays(const RayBatch& rays, TraversalStatistics& statistics) {
+  if (rays.one_kind) {
+    statistics[rays.queries[0].kind].rays += rays.count;
+  } else {
+    for (const RayQuery& query : rays.queries) ++statistics[query.kind].rays;
+  }
 }
 
 // A function of its own, for what it keeps on the stack would be in the way of single rays.
+template <class Sink>
 HWY_NOINLINE void TraceInBatches(const CellTree& cells, double tolerance, SingleTracer& single, std::vector<Run>& runs,
-                                 std::span<const RayQuery> queries, std::span<CellAnswer> answers,
-                                 TraversalStatistics& statistics) {
+                                 std::span<const RayQuery> queries, const Sink& sink, TraversalStatistics& statistics) {
   RayBatch rays;
   BatchFindings found;
   BlockTracer block(cells, tolerance, rays, found);
   StreamTracer stream(cells, tolerance, rays, found);
   const BatchAnswers finisher(cells, tolerance / (2 * cells.scale.resolution), rays, found);
-  const bool any_will_do = single.wanted() == Wanted::occlusion;
+  constexpr bool any_will_do = Sink::wanted == Wanted::occlusion;
   std::size_t streams_due = 0;
   for (std::size_t begin = 0; begin < queries.size(); begin += RayBatch::most_rays) {
     const std::size_t count = std::min(RayBatch::most_rays, queries.size() - begin);
-    rays.Begin(cells, queries.subspan(begin, count));
-    for (const RayQuery& query : rays.queries) ++statistics[query.kind].rays;
     const std::size_t next = begin + count;
-    Prefetch(queries.subspan(next, std::min(RayBatch::most_rays, queries.size() - next)));
+    rays.Begin(cells, queries.subspan(begin, count),
+               queries.subspan(next, std::min(RayBatch::most_rays, queries.size() - next)));
+    CountRays(rays, statistics);
     found.Clear(rays);
     const bool is_block = count >= least_batch && streams_due == 0 && block.Begin();
     const std::uint64_t left = is_block ? block.Trace(any_will_do, statistics[queries[begin].kind]) : rays.in_scene();
@@ -67,19 +70,33 @@ HWY_NOINLINE void TraceInBatches(const CellTree& cells, double tolerance, Single
       --streams_due;
     }
     if (left != 0) stream.Trace(left, statistics);
-    finisher.Write(answers.subspan(begin, count), single, runs, statistics);
+    finisher.Write(begin, sink, single, runs, statistics);
   }
 }
 
-void TraceRays(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries,
-               std::span<CellAnswer> answers, Wanted wanted, CellScratch& scratch, TraversalStatistics& statistics) {
+template <class Sink>
+HWY_INLINE void TraceInto(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries,
+                          const Sink& sink, CellScratch& scratch, TraversalStatistics& statistics) {
   scratch.runs.clear();
-  SingleTracer single(cells, tree, scratch, wanted);
+  SingleTracer single(cells, tree, scratch, Sink::wanted);
   if (queries.size() < least_batch) {
-    TraceOneByOne(single, queries, answers, statistics);
+    TraceOneByOne(single, queries, sink, statistics);
   } else {
-    TraceInBatches(cells, tree.tolerance.distance, single, scratch.runs, queries, answers, statistics);
+    TraceInBatches(cells, tree.tolerance.distance, single, scratch.runs, queries, sink, statistics);
   }
+}
+
+void TraceAnswers(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries, const AnswerSink& sink,
+                  CellScratch& scratch, TraversalStatistics& statistics) {
+  TraceInto(cells, tree, queries, sink, scratch, statistics);
+}
+void TraceBoundaries(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries,
+                     const BoundarySink& sink, CellScratch& scratch, TraversalStatistics& statistics) {
+  TraceInto(cells, tree, queries, sink, scratch, statistics);
+}
+void TraceOcclusion(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries,
+                    const OcclusionSink& sink, CellScratch& scratch, TraversalStatistics& statistics) {
+  TraceInto(cells, tree, queries, sink, scratch, statistics);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -89,11 +106,21 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tenon::cells {
 
-HWY_EXPORT(TraceRays);
+HWY_EXPORT(TraceAnswers);
+HWY_EXPORT(TraceBoundaries);
+HWY_EXPORT(TraceOcclusion);
 
+void trace_rays(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries, const AnswerSink& sink,
+                CellScratch& scratch, TraversalStatistics& statistics) {
+  HWY_DYNAMIC_DISPATCH(TraceAnswers)(cells, tree, queries, sink, scratch, statistics);
+}
+void trace_rays(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries, const BoundarySink& sink,
+                CellScratch& scratch, TraversalStatistics& statistics) {
+  HWY_DYNAMIC_DISPATCH(TraceBoundaries)(cells, tree, queries, sink, scratch, statistics);
+}
 void trace_rays(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries,
-                std::span<CellAnswer> answers, Wanted wanted, CellScratch& scratch, TraversalStatistics& statistics) {
-  HWY_DYNAMIC_DISPATCH(TraceRays)(cells, tree, queries, answers, wanted, scratch, statistics);
+                const OcclusionSink& sink, CellScratch& scratch, TraversalStatistics& statistics) {
+  HWY_DYNAMIC_DISPATCH(TraceOcclusion)(cells, tree, queries, sink, scratch, statistics);
 }
 
 }  // namespace tenon::cells

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -112,9 +113,51 @@ inline int start_face(const RayQuery& query, LeafId leaf) {
   return -1;
 }
 
+/// Where the answers to rays are kept whole.
+struct AnswerSink {
+  std::span<CellAnswer> answers;
+
+  static constexpr Wanted wanted = Wanted::hit;
+  void put(std::size_t i, const CellAnswer& answer) const { answers[i] = answer; }
+};
+
+/// Where of each answer is kept what a RayBoundary says. An unsure one is none yet.
+struct BoundarySink {
+  std::span<RayBoundary> boundaries;
+  std::vector<std::uint32_t>& unsure;  ///< rays, by their places
+
+  static constexpr Wanted wanted = Wanted::boundary;
+  void put(std::size_t i, const CellAnswer& answer) const {
+    const bool is_known = answer.kind == CellAnswer::Kind::boundary;
+    RayBoundary& boundary = boundaries[i];
+    boundary.t = is_known ? answer.t : std::numeric_limits<double>::infinity();
+    boundary.surface = answer.surface;
+    boundary.entering = is_known && !answer.before;
+    if (answer.kind == CellAnswer::Kind::unsure) unsure.push_back(static_cast<std::uint32_t>(i));
+  }
+};
+
+/// The same where only whether there is a boundary is asked.
+struct OcclusionSink {
+  std::span<std::uint8_t> occluded;
+  std::vector<std::uint32_t>& unsure;
+
+  static constexpr Wanted wanted = Wanted::occlusion;
+  /// What may still be put another time.
+  void put_known(std::size_t i, bool met) const { occluded[i] = met; }
+  void put(std::size_t i, const CellAnswer& answer) const {
+    occluded[i] = answer.kind == CellAnswer::Kind::boundary;
+    if (answer.kind == CellAnswer::Kind::unsure) unsure.push_back(static_cast<std::uint32_t>(i));
+  }
+};
+
 /// Follows rays with the widest instructions that the machine has: neighbours that go the same way together, the others
-/// one by one.
+/// one by one. Every ray's answer is put once.
+void trace_rays(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries, const AnswerSink& sink,
+                CellScratch& scratch, TraversalStatistics& statistics);
+void trace_rays(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries, const BoundarySink& sink,
+                CellScratch& scratch, TraversalStatistics& statistics);
 void trace_rays(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries,
-                std::span<CellAnswer> answers, Wanted wanted, CellScratch& scratch, TraversalStatistics& statistics);
+                const OcclusionSink& sink, CellScratch& scratch, TraversalStatistics& statistics);
 
 }  // namespace tenon::cells

@@ -17,7 +17,6 @@ namespace {
 
 using cells::CellAnswer;
 using cells::CellTree;
-using cells::Wanted;
 
 /// `cells`: space is cut until the Boolean expression in each cell is a word of truth values over a few primitives, so
 /// that the first change of value in the first cell is the answer.
@@ -35,7 +34,7 @@ class Cells final : public Accelerator {
   void first_hits(std::span<const RayQuery> queries, std::span<Hit> hits, TraceContext& base) const override {
     auto& context = static_cast<Context&>(base);
     context.answers.resize(queries.size());
-    trace(queries, context.answers, Wanted::hit, context);
+    trace(queries, cells::AnswerSink{context.answers}, context);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const CellAnswer& answer = context.answers[i];
       if (answer.kind == CellAnswer::Kind::nothing) {
@@ -51,41 +50,24 @@ class Cells final : public Accelerator {
   void first_boundaries(std::span<const RayQuery> queries, std::span<RayBoundary> boundaries,
                         TraceContext& base) const override {
     auto& context = static_cast<Context&>(base);
-    context.answers.resize(queries.size());
-    trace(queries, context.answers, Wanted::boundary, context);
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      const CellAnswer& answer = context.answers[i];
-      // Part by part: a whole one, put together elsewhere and copied, waits for each of its parts to be written.
-      RayBoundary& boundary = boundaries[i];
-      const bool is_known = answer.kind == CellAnswer::Kind::boundary;
-      boundary.t = is_known ? answer.t : std::numeric_limits<double>::infinity();
-      boundary.surface = is_known ? answer.surface : LeafFace{};
-      boundary.entering = is_known && !answer.before;
-      if (answer.kind == CellAnswer::Kind::unsure) {
-        exact(context, [&](const Accelerator& exact, TraceContext& exact_context) {
-          exact.first_boundaries(queries.subspan(i, 1), boundaries.subspan(i, 1), exact_context);
-        });
-      }
-    }
+    trace(queries, cells::BoundarySink{boundaries, context.unsure}, context);
+    ask_of_unsure(context, [&](std::size_t i, const Accelerator& exact, TraceContext& exact_context) {
+      exact.first_boundaries(queries.subspan(i, 1), boundaries.subspan(i, 1), exact_context);
+    });
   }
 
   void occluded(std::span<const RayQuery> queries, std::span<std::uint8_t> answers, TraceContext& base) const override {
     auto& context = static_cast<Context&>(base);
-    context.answers.resize(queries.size());
-    trace(queries, context.answers, Wanted::occlusion, context);
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      answers[i] = context.answers[i].kind == CellAnswer::Kind::boundary;
-      if (context.answers[i].kind != CellAnswer::Kind::unsure) continue;
-      exact(context, [&](const Accelerator& exact, TraceContext& exact_context) {
-        exact.occluded(queries.subspan(i, 1), answers.subspan(i, 1), exact_context);
-      });
-    }
+    trace(queries, cells::OcclusionSink{answers, context.unsure}, context);
+    ask_of_unsure(context, [&](std::size_t i, const Accelerator& exact, TraceContext& exact_context) {
+      exact.occluded(queries.subspan(i, 1), answers.subspan(i, 1), exact_context);
+    });
   }
 
   bool any_hit(const RayQuery& query, StopsRay stops, TraceContext& base) const override {
     auto& context = static_cast<Context&>(base);
     CellAnswer answer;
-    trace({&query, 1}, {&answer, 1}, Wanted::hit, context);
+    trace({&query, 1}, cells::AnswerSink{{&answer, 1}}, context);
     if (answer.kind == CellAnswer::Kind::nothing) return false;
     Hit first;
     bool asked = false;
@@ -123,16 +105,18 @@ class Cells final : public Accelerator {
   struct Context final : TraceContext {
     cells::CellScratch scratch;
     std::vector<CellAnswer> answers;
+    std::vector<std::uint32_t> unsure;  // rays of the last call, by their places
     std::unique_ptr<TraceContext> exact;
   };
 
-  void trace(std::span<const RayQuery> queries, std::span<CellAnswer> answers, Wanted wanted, Context& context) const {
-    if (cells_.empty()) {
-      for (const RayQuery& query : queries) ++context.statistics[query.kind].rays;
-      std::fill(answers.begin(), answers.end(), CellAnswer{});
-      return;
+  template <class Sink>
+  void trace(std::span<const RayQuery> queries, const Sink& sink, Context& context) const {
+    context.unsure.clear();
+    if (!cells_.empty()) return trace_rays(cells_, tree_, queries, sink, context.scratch, context.statistics);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      ++context.statistics[queries[i].kind].rays;
+      sink.put(i, CellAnswer{});
     }
-    trace_rays(cells_, tree_, queries, answers, wanted, context.scratch, context.statistics);
   }
 
   // The boundary as the classifier would have found it; false when its material is not known here.
@@ -167,6 +151,13 @@ class Cells final : public Accelerator {
     std::call_once(exact_built_, [this] { exact_ = std::move(build_accelerator("multi-kd", tree_)).value(); });
     if (!context.exact) context.exact = exact_->make_context();
     ask(*exact_, *context.exact);
+  }
+
+  template <class Ask>
+  void ask_of_unsure(Context& context, const Ask& ask) const {
+    for (const std::uint32_t i : context.unsure) {
+      exact(context, [&](const Accelerator& exact, TraceContext& exact_context) { ask(i, exact, exact_context); });
+    }
   }
 
   const CsgTree& tree_;

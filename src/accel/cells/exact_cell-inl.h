@@ -42,10 +42,10 @@ struct CellChords {
   template <class D>
   HWY_INLINE void Put(D d, std::uint32_t place, const ChordLanes<D>& chord) {
     const auto never = hn::Set(d, std::numeric_limits<double>::infinity());
-    hn::Store(hn::IfThenElse(chord.hit, chord.enter, never), d, enter[place]);
-    hn::Store(hn::IfThenElse(chord.hit, chord.leave, never), d, leave[place]);
-    hn::Store(chord.enter_face, d, enter_face[place]);
-    hn::Store(chord.leave_face, d, leave_face[place]);
+    hn::Store(hn::IfThenElse(chord.hit, chord.enter.t, never), d, enter[place]);
+    hn::Store(hn::IfThenElse(chord.hit, chord.leave.t, never), d, leave[place]);
+    hn::Store(chord.enter.face, d, enter_face[place]);
+    hn::Store(chord.leave.face, d, leave_face[place]);
   }
 };
 
@@ -150,13 +150,11 @@ class ExactCell {
     const double near = 2 * resolution_;
     if (has_chord(shape.kind()) || (shape.kind() == ShapeKind::torus && on_face < 0)) {
       const One one;
-      const ChordLanes<One> chord = has_chord(shape.kind()) ? Chord(shape, on_face) : Torus(shape, answer);
-      const double t = hn::GetLane(answer.leaf_entering ? chord.enter : chord.leave);
-      const bool sure = hn::AllFalse(one, chord.unsure) && !hn::AllFalse(one, chord.hit);
-      if (sure && std::fabs(t - answer.t) <= near) {
+      const CrossingLanes<One> end = OneCrossing(shape, on_face, answer);
+      const double t = hn::GetLane(end.t);
+      if (hn::AllFalse(one, end.unsure) && std::fabs(t - answer.t) <= near) {
         answer.t = t;
-        answer.surface.face =
-            static_cast<std::uint32_t>(hn::GetLane(answer.leaf_entering ? chord.enter_face : chord.leave_face));
+        answer.surface.face = static_cast<std::uint32_t>(hn::GetLane(end.face));
         return true;
       }
     }
@@ -241,11 +239,18 @@ class ExactCell {
     return FindChord(one, ray_, cells_.shapes, shape, on_face, cells_.scale.reach, hn::Set(one, length_));
   }
 
-  ChordLanes<One> Torus(ShapeRef shape, const CellAnswer& answer) const {
+  // That of a leaf which plain arithmetic has found.
+  CrossingLanes<One> OneCrossing(ShapeRef shape, int on_face, const CellAnswer& answer) const {
     const One one;
-    const auto all = hn::Eq(hn::Zero(one), hn::Zero(one));
-    return TorusCrossing(one, ray_, SharedShape<One, PlacedTorus>(cells_.shapes.tori[shape.index()]),
-                         hn::Set(one, answer.t), answer.leaf_entering ? all : hn::Not(all));
+    const auto all = hn::Eq(ray_.square, ray_.square), enters = answer.leaf_entering ? all : hn::Not(all);
+    const auto take = [&]<class Shape>(const std::vector<Shape>& list) {
+      return SharedShape<One, Shape>(list[shape.index()]);
+    };
+    if (shape.kind() == ShapeKind::torus) {
+      return TorusCrossing(one, ray_, take(cells_.shapes.tori), hn::Set(one, answer.t), enters);
+    }
+    return FindCrossing(one, ray_, cells_.shapes, shape.kind(), take, on_face, cells_.scale.reach,
+                        hn::Set(one, length_), enters);
   }
 
   const Spans& FindSpans(LeafId leaf, int on_face) {

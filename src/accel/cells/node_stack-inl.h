@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
+
 #include "accel/cells/wide_node.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -46,40 +48,23 @@ class NodeStack {
 
   /// Pushes the children that the ray meets.
   HWY_INLINE void Open(const WideNode& node, const BoxRay& ray) {
-    const Wide wide;
-    const std::uint32_t order = node.last_to_first[ray.octant];
-    std::size_t size = size_;
-    if constexpr (hn::MaxLanes(Wide()) == node_width) {
-      const hn::RebindToUnsigned<Wide> whole;
-      HWY_ALIGN static constexpr std::uint32_t shifts[node_width] = {0, 3, 6, 9, 12, 15, 18, 21};
-      const auto lane = hn::And(hn::Shr(hn::Set(whole, order), hn::Load(whole, shifts)), hn::Set(whole, 7));
-      const auto ordered = hn::IndicesFromVec(wide, lane);
-      const Stretches s = Meet(node, ray, 0);
-      const auto near = hn::TableLookupLanes(s.near, ordered), far = hn::TableLookupLanes(s.far, ordered);
-      const auto child = hn::TableLookupLanes(hn::Load(whole, &node.children[0].bits), hn::IndicesFromVec(whole, lane));
-      const auto met = hn::Le(near, far);
-      // Whole vectors are written; what lies behind the last one met is overwritten by what comes next.
-      hn::StoreU(hn::Compress(near, met), wide, t_in_ + size);
-      hn::StoreU(hn::Compress(far, met), wide, t_out_ + size);
-      hn::StoreU(hn::Compress(child, hn::RebindMask(whole, met)), whole, child_ + size);
-      size += hn::CountTrue(wide, met);
-    } else {
-      HWY_ALIGN float near[node_width];
-      HWY_ALIGN float far[node_width];
-      for (std::size_t lane = 0; lane < node_width; lane += hn::Lanes(wide)) {
-        const Stretches s = Meet(node, ray, lane);
-        hn::Store(s.near, wide, near + lane);
-        hn::Store(s.far, wide, far + lane);
-      }
-      for (std::uint32_t place = 0; place < node_width; ++place) {
-        const std::uint32_t lane = order >> (3 * place) & 7;
-        child_[size] = node.children[lane].bits;
-        t_in_[size] = near[lane];
-        t_out_[size] = far[lane];
-        size += near[lane] <= far[lane] ? 1 : 0;
-      }
-    }
-    size_ = size;
+    Opened opened;
+    Push(node, ray, opened);
+  }
+
+  /// The same, but that the nearest is taken off again. It is had sooner than by Pop(), which reads what was hardly
+  /// written.
+  /// @return whether there is one
+  HWY_INLINE bool OpenNearest(const WideNode& node, const BoxRay& ray, Visit& nearest) {
+    Opened opened;
+    Push(node, ray, opened);
+    if (opened.met == 0) return false;
+    --size_;
+    const auto place = static_cast<std::uint32_t>(std::bit_width(opened.met) - 1);
+    nearest.child = node.children[node.last_to_first[ray.octant] >> (3 * place) & 7];
+    nearest.t_in = opened.near[place];
+    nearest.t_out = opened.far[place];
+    return true;
   }
 
  private:
@@ -101,9 +86,64 @@ class NodeStack {
     return s;
   }
 
-  std::uint32_t child_[most_pending + node_width];
-  float t_in_[most_pending + node_width];
-  float t_out_[most_pending + node_width];
+  // What the ray meets of a node, from last to first; of those that are not met, anything.
+  struct Opened {
+    HWY_ALIGN float near[node_width];
+    HWY_ALIGN float far[node_width];
+    std::uint32_t met;  // a bit each
+  };
+
+  HWY_INLINE void Push(const WideNode& node, const BoxRay& ray, Opened& opened) {
+    const Wide wide;
+    const std::uint32_t order = node.last_to_first[ray.octant];
+    const std::size_t size = size_;
+    if constexpr (hn::MaxLanes(Wide()) == node_width) {
+      const hn::RebindToUnsigned<Wide> whole;
+      HWY_ALIGN static constexpr std::uint32_t shifts[node_width] = {0, 3, 6, 9, 12, 15, 18, 21};
+      const auto lane = hn::And(hn::Shr(hn::Set(whole, order), hn::Load(whole, shifts)), hn::Set(whole, 7));
+      const auto ordered = hn::IndicesFromVec(wide, lane);
+      const Stretches s = Meet(node, ray, 0);
+      const auto near = hn::TableLookupLanes(s.near, ordered), far = hn::TableLookupLanes(s.far, ordered);
+      const auto child = hn::TableLookupLanes(hn::Load(whole, &node.children[0].bits), hn::IndicesFromVec(whole, lane));
+      const auto met = hn::Le(near, far);
+      hn::Store(near, wide, opened.near);
+      hn::Store(far, wide, opened.far);
+      std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(wide, met, bits);
+      opened.met = bits[0];
+      // Whole vectors are written; what lies behind the last one met is overwritten by what comes next.
+      hn::StoreU(hn::Compress(near, met), wide, t_in_ + size);
+      hn::StoreU(hn::Compress(far, met), wide, t_out_ + size);
+      hn::StoreU(hn::Compress(child, hn::RebindMask(whole, met)), whole, child_ + size);
+      size_ = size + hn::CountTrue(wide, met);
+    } else {
+      HWY_ALIGN float near[node_width];
+      HWY_ALIGN float far[node_width];
+      for (std::size_t lane = 0; lane < node_width; lane += hn::Lanes(wide)) {
+        const Stretches s = Meet(node, ray, lane);
+        hn::Store(s.near, wide, near + lane);
+        hn::Store(s.far, wide, far + lane);
+      }
+      opened.met = 0;
+      for (std::uint32_t place = 0; place < node_width; ++place) {
+        const std::uint32_t lane = order >> (3 * place) & 7;
+        opened.near[place] = near[lane];
+        opened.far[place] = far[lane];
+        const std::uint32_t met = near[lane] <= far[lane] ? 1 : 0;
+        opened.met |= met << place;
+        child_[size_] = node.children[lane].bits;
+        t_in_[size_] = near[lane];
+        t_out_[size_] = far[lane];
+        size_ += met;
+      }
+    }
+  }
+
+  // From the beginning of a cache line on: the first few stores, which are most of them, lie within one, and what lies
+  // across two is slow to read soon after.
+  alignas(64) std::uint32_t child_[most_pending + node_width];
+  alignas(64) float t_in_[most_pending + node_width];
+  alignas(64) float t_out_[most_pending + node_width];
   std::size_t size_ = 0;
 };
 

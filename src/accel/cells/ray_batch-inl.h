@@ -9,7 +9,10 @@
 
 #include <hwy/highway.h>
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 
 #include "accel/cells/cell_trace.h"
@@ -31,12 +34,13 @@ struct RayBatch {
   static constexpr std::size_t most_rays = 64;
 
   /// Takes the rays.
-  void Begin(const CellTree& cells, std::span<const RayQuery> rays) {
+  /// @param later  those of the next batch, which are called to the cache
+  void Begin(const CellTree& cells, std::span<const RayQuery> rays, std::span<const RayQuery> later) {
     queries = rays;
     count = queries.size();
     padded = (count + float_lanes - 1) / float_lanes * float_lanes;
     Load();
-    FindStarts(cells);
+    FindStarts(cells, later);
     FindOctants();
     if (has_from) FindStartLeaves();
   }
@@ -112,9 +116,15 @@ struct RayBatch {
 
  private:
   HWY_NOINLINE void Load() {
-    has_from = false;
-    one_kind = true;
-    for (std::size_t i = 0; i < count; ++i) {
+    std::uintptr_t from = 0;
+    std::uint32_t other_kinds = 0;
+    for (const RayQuery& q : queries) {
+      from |= reinterpret_cast<std::uintptr_t>(q.from);
+      other_kinds |= static_cast<std::uint32_t>(q.kind) ^ static_cast<std::uint32_t>(queries[0].kind);
+    }
+    has_from = from != 0;
+    one_kind = other_kinds == 0;
+    for (std::size_t i = LoadFours(); i < count; ++i) {
       const RayQuery& q = queries[i];
       for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
@@ -122,8 +132,6 @@ struct RayBatch {
         direction[a][i] = q.ray.direction[axis];
       }
       end[i] = q.t_max;
-      has_from |= q.from != nullptr;
-      one_kind &= q.kind == queries[0].kind;
     }
     // Lanes without a ray repeat the last one, and have no length.
     for (std::size_t i = count; i < padded; ++i) {
@@ -135,14 +143,51 @@ struct RayBatch {
     }
   }
 
+  // Loads as many rays as there are fours of, where a vector has room for four numbers. Those of a ray stand side by
+  // side in memory; here each gets a row of its own. @return how many
+  std::size_t LoadFours() {
+    std::size_t i = 0;
+#if HWY_TARGET != HWY_SCALAR
+    const hn::CappedTag<double, 4> d;
+    if constexpr (hn::MaxLanes(d) == 4) {
+      static_assert(offsetof(RayQuery, ray.direction) == 3 * sizeof(double) &&
+                    offsetof(RayQuery, t_max) == 6 * sizeof(double) && sizeof(RayQuery) >= 8 * sizeof(double));
+      for (; i + 4 <= count; i += 4) {
+        for (std::size_t half = 0; half < 2; ++half) {
+          const auto numbers = [&](std::size_t ray) {
+            return hn::LoadU(d, reinterpret_cast<const double*>(&queries[i + ray]) + 4 * half);
+          };
+          const auto a = numbers(0), b = numbers(1), c = numbers(2), e = numbers(3);
+          const auto ab_even = hn::InterleaveLower(d, a, b), ab_odd = hn::InterleaveUpper(d, a, b);
+          const auto ce_even = hn::InterleaveLower(d, c, e), ce_odd = hn::InterleaveUpper(d, c, e);
+          hn::Store(hn::ConcatLowerLower(d, ce_even, ab_even), d, (half == 0 ? query_origin[0] : direction[1]) + i);
+          hn::Store(hn::ConcatLowerLower(d, ce_odd, ab_odd), d, (half == 0 ? query_origin[1] : direction[2]) + i);
+          hn::Store(hn::ConcatUpperUpper(d, ce_even, ab_even), d, (half == 0 ? query_origin[2] : end) + i);
+          if (half == 0) hn::Store(hn::ConcatUpperUpper(d, ce_odd, ab_odd), d, direction[0] + i);
+        }
+      }
+    }
+#endif
+    return i;
+  }
+
+  // Asks for what lies further on in memory before it is needed: a little at a time, for there is room for few
+  // requests.
+  static HWY_INLINE void Prefetch(std::span<const RayQuery> rays) {
+    const auto* first = reinterpret_cast<const char*>(rays.data());
+    for (std::size_t byte = 0; byte < rays.size_bytes(); byte += 64) hwy::Prefetch(first + byte);
+  }
+
   // Where the rays meet the scene's box.
-  HWY_NOINLINE void FindStarts(const CellTree& cells) {
+  HWY_NOINLINE void FindStarts(const CellTree& cells, std::span<const RayQuery> later) {
     const D d;
     const HalfF f;
     const auto zero = hn::Zero(d), most = hn::Set(d, 0x1p100), unit = hn::Set(d, 1.0);
     flat = false;
     unsound = 0;
     for (std::size_t i = 0; i < padded; i += double_lanes) {
+      const std::size_t left = later.size() - std::min(i, later.size());
+      Prefetch(later.subspan(later.size() - left, std::min(double_lanes, left)));
       const hn::Vec<D> o[3] = {hn::Load(d, &query_origin[0][i]), hn::Load(d, &query_origin[1][i]),
                                hn::Load(d, &query_origin[2][i])};
       const hn::Vec<D> v[3] = {hn::Load(d, &direction[0][i]), hn::Load(d, &direction[1][i]),

@@ -33,10 +33,9 @@ class SingleTracer {
 
   Wanted wanted() const { return wanted_; }
 
-  // The answer is written where it stays: a copy of what was just written part by part waits for all of it.
+  /// @param answer  as it is made
   void Trace(const RayQuery& query, CellAnswer& answer, TraversalCounters& counters) {
     query_ = &query;
-    answer = CellAnswer{};
     const Vec3 &o = query.ray.origin, &d = query.ray.direction;
     const double square = dot(d, d);
     if (!IsSound(cells_, o, square)) {
@@ -129,22 +128,22 @@ class SingleTracer {
     NodeStack stack;
     const BoxRay ray{
         {&origin_[0], &origin_[1], &origin_[2]}, {&inverse_[0], &inverse_[1], &inverse_[2]}, t_end_, octant_};
-    stack.Open(cells_.nodes.front(), ray);
     std::uint64_t visited = 0;
     tests_ = 0;
-    while (!stack.empty()) {
-      const auto [child, t_in, t_out] = stack.Pop();
-      if (!child.is_cell()) {
-        stack.Open(cells_.nodes[child.index()], ray);
-        continue;
+    NodeStack::Visit visit{ChildRef::node(0), 0, 0};
+    for (;;) {
+      if (!visit.child.is_cell()) {
+        if (stack.OpenNearest(cells_.nodes[visit.child.index()], ray, visit)) continue;
+      } else {
+        ++visited;
+        const Cell& cell = cells_.cells[visit.child.index()];
+        answer.cell = visit.child.index();
+        const Outcome outcome = Meet(cell, visit.t_in, visit.t_out, answer);
+        if (outcome == Outcome::unsure) answer.kind = CellAnswer::Kind::unsure;
+        if (outcome != Outcome::passed) break;
       }
-      ++visited;
-      const Cell& cell = cells_.cells[child.index()];
-      answer.cell = child.index();
-      const Outcome outcome = Meet(cell, t_in, t_out, answer);
-      if (outcome == Outcome::passed) continue;
-      if (outcome == Outcome::unsure) answer.kind = CellAnswer::Kind::unsure;
-      break;
+      if (stack.empty()) break;
+      visit = stack.Pop();
     }
     counters.cells_visited += visited;
     counters.primitive_tests += tests_ + exact_.TakeTests();

@@ -9,7 +9,7 @@
 
 #include <hwy/highway.h>
 
-#include "accel/cells/chord-inl.h"
+#include "accel/cells/crossing-inl.h"
 #include "primitive/torus_quartic.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,10 +28,10 @@ HWY_INLINE hn::Vec<D> PowerOfTwoBelow(D d, hn::Vec<D> x) {
 /// SettledTorusRoot, by the same operations in the same order.
 /// @param near      the place, known within 4 resolutions
 /// @param entering  whether it is one where the ray enters
-/// @return both ends of the chord are that crossing; unsure where spans() may report another double
+/// @return unsure where spans() may report another double
 template <class D, class Lanes>
-HWY_INLINE ChordLanes<D> TorusCrossing(D d, const RayLanes<D>& ray, const Lanes& shape, hn::Vec<D> near,
-                                       hn::Mask<D> entering) {
+HWY_INLINE CrossingLanes<D> TorusCrossing(D d, const RayLanes<D>& ray, const Lanes& shape, hn::Vec<D> near,
+                                          hn::Mask<D> entering) {
   using Shape = typename Lanes::Shape;
   using Root = SettledTorusRoot;
   const LocalLanes<D> local =
@@ -64,12 +64,12 @@ HWY_INLINE ChordLanes<D> TorusCrossing(D d, const RayLanes<D>& ray, const Lanes&
       hn::And(hn::Le(hn::Abs(last), hn::Mul(step, hn::Set(d, Root::relative_rest))), hn::Le(hn::Abs(s), step));
   const auto is_steep = hn::Ge(hn::Abs(slope), hn::Mul(hn::Set(d, 2 * Root::relative_slope), hn::Mul(r, speed)));
   const auto rising = hn::Gt(slope, hn::Zero(d));
-  ChordLanes<D> chord;
-  chord.enter = chord.leave = hn::Add(hn::Add(from, s), local.shift);
-  chord.enter_face = chord.leave_face = hn::Zero(d);
-  chord.hit = hn::And(hn::And(clear, hn::Xor(entering, rising)), hn::And(is_at_rest, is_steep));
-  chord.unsure = hn::Not(chord.hit);
-  return chord;
+  CrossingLanes<D> end;
+  end.t = hn::Add(hn::Add(from, s), local.shift);
+  end.face = hn::Zero(d);
+  end.hit = hn::And(hn::And(clear, hn::Xor(entering, rising)), hn::And(is_at_rest, is_steep));
+  end.unsure = hn::Not(end.hit);
+  return end;
 }
 
 }  // namespace HWY_NAMESPACE
