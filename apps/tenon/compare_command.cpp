@@ -180,7 +180,7 @@ Status CompareCommand::run() const {
     const Replay replayed = replay(compiled, *built->accelerator, *rays, &console.progress().counters());
     console.progress().end();
     all.push_back({spec, 1, built->seconds, replayed.seconds, built->accelerator->figures(), replayed.statistics,
-                   replayed.mismatches});
+                   std::nullopt, replayed.mismatches});
     if (replayed.mismatches > 0) differences += (differences.empty() ? "" : "\n") + describe(spec, replayed);
   }
   if (Status status = write_standard_output(json ? statistics_json(all) : table(all)); !status) return status;

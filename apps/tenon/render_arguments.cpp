@@ -36,7 +36,7 @@ void RenderArguments::add_to(CLI::App& command) {
   command
       .add_option("--depth", depth,
                   "Levels of the tree of rays, or surfaces along a path; 1: nothing is reflected or refracted. "
-                  "8 by whitted, 20 by path")
+                  "8 by whitted, 20 by path, which says when light may be missed by that")
       ->type_name("N")
       ->check(CLI::Range(1, 1000).description("1 to 1000"));
   command.add_option("--seed", seed, "Of everything that --integrator path draws at random")
@@ -55,8 +55,9 @@ void RenderArguments::add_to(CLI::App& command) {
       "--stats writes accel, threads, build_seconds, memory_bytes, render_seconds, rays (by kind), rays_per_second,\n"
       "primitive_tests, cells_visited, next_box_calls and mailbox_hits (over all rays), per_kind (the same four for "
       "each\n"
-      "kind of ray), boxes, depth (of the structure), seam_faults, and mismatches (null: a picture alone is compared\n"
-      "with nothing).");
+      "kind of ray), boxes, depth (of the structure), seam_faults, paths_cut (by --depth), share_cut (of the light, "
+      "had\n"
+      "they met as much as others), and mismatches (null: a picture alone is compared with nothing).");
 }
 
 Result<RenderPlan> plan_render(const RenderArguments& arguments) {
@@ -67,7 +68,7 @@ Result<RenderPlan> plan_render(const RenderArguments& arguments) {
     return usage_error("there is no integrator '" + arguments.integrator + "'; there are: whitted, path");
   }
   const bool is_path = plan.integrator == IntegratorKind::path;
-  plan.depth = arguments.depth != 0 ? arguments.depth : is_path ? 20 : 8;
+  plan.depth = arguments.depth != 0 ? arguments.depth : is_path ? usual_path_depth : 8;
   if (Status status = read_size(arguments.size, plan); !status) return status.error();
   Result<ViewRequest> view = plan_view(arguments.view, static_cast<double>(plan.width) / plan.height);
   if (!view) return view.error();

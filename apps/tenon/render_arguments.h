@@ -24,6 +24,9 @@ struct RenderArguments {
   void add_to(CLI::App& command);
 };
 
+/// Surfaces along a path where nobody says how many, as in Zajíček's thesis.
+inline constexpr int usual_path_depth = 20;
+
 /// The same, understood.
 struct RenderPlan {
   int width = 0, height = 0;

@@ -53,6 +53,19 @@ struct RenderCommand {
   void say_end(Console& console, const PicturePlan& file, const FilmPart& part, const Rendering& rendering) const;
 };
 
+// Less than the usual depth somebody chose, and knows why.
+void warn_of_depth(const DepthCut& cut, int depth, Diagnostics& diagnostics) {
+  if (!cut.may_be_seen()) return;
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "paths of more than %d surfaces may bring %.2g %% of the light, around pixel %d,%d %.2g %% at least; take a "
+      "larger --depth",
+      depth, 100 * cut.share, (cut.tile.x0 + cut.tile.x1) / 2, (cut.tile.y0 + cut.tile.y1) / 2,
+      100 * cut.largest_share);
+  diagnostics.warn(text);
+}
+
 // The arguments that the picture depends on. What it is taken with, in which parts, and where it goes are not among
 // them.
 std::string RenderCommand::dependent_arguments(const RenderOptions& options) const {
@@ -215,8 +228,8 @@ Status RenderCommand::take_heat_map(const RenderPlan& plan, const PicturePlan& f
   if (!bytes) return bytes.error();
   if (Status status = outputs->picture.finish(*bytes); !status) return status;
   if (outputs->statistics) {
-    const std::string json =
-        statistics_json(tracing.accelerator, *traceable, map->threads, map->render_seconds, map->statistics);
+    const std::string json = statistics_json(tracing.accelerator, *traceable, map->threads, map->render_seconds,
+                                             map->statistics, std::nullopt);
     if (Status status = outputs->statistics->finish(json); !status) return status;
   }
   console.progress().end();
@@ -314,11 +327,12 @@ Status RenderCommand::take(const RenderPlan& plan, const PicturePlan& file, cons
   if (Status status = outputs->picture.finish(*bytes); !status) return status;
   if (checkpoint && finished) checkpoint->remove();
   if (outputs->statistics) {
-    const std::string json =
-        statistics_json(tracing.accelerator, *traceable, rendering->threads, rendering->seconds, rendering->statistics);
+    const std::string json = statistics_json(tracing.accelerator, *traceable, rendering->threads, rendering->seconds,
+                                             rendering->statistics, rendering->cut);
     if (Status status = outputs->statistics->finish(json); !status) return status;
   }
   console.progress().end();
+  if (options.depth >= usual_path_depth) warn_of_depth(rendering->cut, options.depth, console.diagnostics());
   if (!scene.quiet) say_end(console, file, part, *rendering);
   return success();
 }

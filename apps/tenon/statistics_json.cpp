@@ -34,6 +34,8 @@ Json to_json(const Measurements& m) {
   json["boxes"] = m.figures.boxes;
   json["depth"] = m.figures.depth;
   json["seam_faults"] = m.statistics.seam_faults;
+  json["paths_cut"] = m.cut ? Json(m.cut->paths) : Json(nullptr);
+  json["share_cut"] = m.cut ? Json(m.cut->share) : Json(nullptr);
   json["mismatches"] = m.mismatches ? Json(*m.mismatches) : Json(nullptr);
   return json;
 }
@@ -45,9 +47,10 @@ std::string to_text(const Json& json) {
 }  // namespace
 
 std::string statistics_json(const std::string& accelerator, const TraceableScene& traceable, int threads,
-                            double render_seconds, const TraversalStatistics& statistics) {
+                            double render_seconds, const TraversalStatistics& statistics,
+                            const std::optional<DepthCut>& cut) {
   return to_text(to_json({accelerator, threads, traceable.build_seconds, render_seconds,
-                          traceable.accelerator->figures(), statistics, std::nullopt}));
+                          traceable.accelerator->figures(), statistics, cut, std::nullopt}));
 }
 
 std::string statistics_json(std::span<const Measurements> all) {

@@ -16,6 +16,7 @@ struct Measurements {
   double build_seconds = 0, render_seconds = 0;
   AcceleratorFigures figures;
   TraversalStatistics statistics;
+  std::optional<DepthCut> cut;            ///< none: no picture
   std::optional<std::size_t> mismatches;  ///< none: compared with nothing
 };
 
@@ -24,6 +25,7 @@ std::string statistics_json(std::span<const Measurements> all);
 
 /// What `--stats` writes.
 std::string statistics_json(const std::string& accelerator, const TraceableScene& traceable, int threads,
-                            double render_seconds, const TraversalStatistics& statistics);
+                            double render_seconds, const TraversalStatistics& statistics,
+                            const std::optional<DepthCut>& cut);
 
 }  // namespace tenon

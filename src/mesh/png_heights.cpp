@@ -23,6 +23,15 @@ class PngReader {
   bool read() {
     if (info_ == nullptr) return fail("there is no memory to read it");
     if (setjmp(png_jmpbuf(png_)) != 0) return false;  // NOLINT(cert-err52-cpp): libpng's way
+    return read_values();
+  }
+
+  Heights heights;
+  std::string problem;
+
+ private:
+  // Apart from read(), where a compiler cannot tell which variables the jump spares.
+  [[gnu::noinline]] bool read_values() {
     png_set_read_fn(png_, this, take_bytes);
     png_read_info(png_, info_);
     heights.rows = png_get_image_height(png_, info_);
@@ -48,11 +57,6 @@ class PngReader {
     }
     return true;
   }
-
-  Heights heights;
-  std::string problem;
-
- private:
   bool fail(std::string message) {
     problem = std::move(message);
     return false;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "render/sampler.h"
@@ -7,6 +8,18 @@
 #include "tenon/math/color.h"
 
 namespace tenon {
+
+/// Paths that ended at the limit of their depth, and what they carried together of the light of one sample each.
+struct CutPaths {
+  std::uint64_t paths = 0;
+  double throughput = 0;
+
+  CutPaths& operator+=(const CutPaths& o) {
+    paths += o.paths;
+    throughput += o.throughput;
+    return *this;
+  }
+};
 
 /// Finds the light that comes back along primary rays. One for each thread: it keeps scratch memory.
 ///
@@ -24,6 +37,9 @@ class Integrator {
   /// @param context  of this thread
   virtual void radiance(std::span<const RayQuery> primary, std::span<const Hit> hits, std::span<const SampleId> samples,
                         std::span<Rgb> light, TraceContext& context) = 0;
+
+  /// What was cut in calls of radiance() since this was asked last.
+  virtual CutPaths take_cut_paths() { return {}; }
 
  protected:
   Integrator() = default;

@@ -94,9 +94,8 @@ void PathIntegrator::draw(std::span<const SampleId> samples, int bounce) {
   };
   draw_pairs(choices, draws_.choice);
   if (scene_.draws_places_of_lights()) draw_pairs(light_place, draws_.light_place);
-  if (bounce + 1 == depth_) return;
   draw_pairs(direction, draws_.direction);
-  if (bounce >= certain_bounces) draw_pairs(roulette, draws_.roulette);
+  if (bounce >= certain_bounces && bounce + 1 < depth_) draw_pairs(roulette, draws_.roulette);
 }
 
 void PathIntegrator::scatter(std::size_t vertex, const Hit& hit, int bounce) {
@@ -107,7 +106,7 @@ void PathIntegrator::scatter(std::size_t vertex, const Hit& hit, int bounce) {
   const Bsdf bsdf = scene_.surface(hit.material).bsdf(wo, scene_.color(hit), scene_.boundary(hit));
   const Bounce at{paths_[vertices_[vertex].path], hit, frame, bsdf, vertex};
   if (bsdf.spreads()) connect(at);
-  if (bounce + 1 < depth_) go_on(at, bounce);
+  go_on(at, bounce);
 }
 
 double PathIntegrator::weight(double density, double other) const {
@@ -170,6 +169,10 @@ void PathIntegrator::go_on(const Bounce& at, int bounce) {
   }
   // A path that carries little goes on seldom, and then carries more.
   const double survival = largest(throughput) / growth;
+  if (bounce + 1 == depth_) {
+    cut_ += {survival > 0 ? 1U : 0U, survival};
+    return;
+  }
   if (bounce >= certain_bounces && survival < 1) {
     if (!(draws_.roulette[at.vertex].u < survival)) return;
     throughput = throughput * (1 / survival);

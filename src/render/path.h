@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "render/integrator.h"
@@ -33,6 +34,7 @@ class PathIntegrator final : public Integrator {
 
   void radiance(std::span<const RayQuery> primary, std::span<const Hit> hits, std::span<const SampleId> samples,
                 std::span<Rgb> light, TraceContext& context) override;
+  CutPaths take_cut_paths() override { return std::exchange(cut_, {}); }
 
  private:
   struct Path {
@@ -97,6 +99,7 @@ class PathIntegrator final : public Integrator {
   std::vector<ShadowRays> shadow_rays_;  // by light
   std::vector<std::uint8_t> occluded_;
   PassedBoundaries passed_;
+  CutPaths cut_;
 };
 
 }  // namespace tenon

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cassert>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <numeric>
 
@@ -38,6 +39,7 @@ class FilmWork {
       const std::uint32_t taken = film.samples(tile.x0, tile.y0);
       reached_.push_back(first_ + taken);
       settled_.push_back(is_settled(i));
+      cut_.emplace_back();
       if (control.progress != nullptr) {
         control.progress->total += tile.pixels() * (end_ - first_);
         control.progress->before += tile.pixels() * (settled_[i] ? end_ - first_ : taken);
@@ -71,6 +73,24 @@ class FilmWork {
   }
 
   double busy_seconds() const { return std::accumulate(busy_seconds_.begin(), busy_seconds_.end(), 0.0); }
+
+  DepthCut cut() const {
+    DepthCut cut;
+    double throughput = 0, samples = 0;
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+      const double of_tile = cut_[i].of_paths.throughput, n = static_cast<double>(cut_[i].samples);
+      cut.paths += cut_[i].of_paths.paths;
+      throughput += of_tile;
+      samples += n;
+      // A path carries no more than all: the variance of their sum is no larger than the sum.
+      const double share = n > 0 ? (of_tile - 2 * std::sqrt(of_tile)) / n : 0;
+      if (share <= cut.largest_share) continue;
+      cut.largest_share = share;
+      cut.tile = tiles_[i];
+    }
+    if (samples > 0) cut.share = throughput / samples;
+    return cut;
+  }
 
   std::vector<SampleBox> done() const {
     std::vector<SampleBox> boxes;
@@ -108,7 +128,8 @@ class FilmWork {
     const PixelWindow tile = tiles_[i];
     const std::uint32_t end = round_end(reached_[i]);
     const std::uint64_t rays_before = worker.statistics().total().rays;
-    worker.take(tile, reached_[i], end, film_);
+    cut_[i].of_paths += worker.take(tile, reached_[i], end, film_);
+    cut_[i].samples += tile.pixels() * (end - reached_[i]);
     busy_seconds += thread_cpu_seconds() - begun;
     std::uint64_t done = tile.pixels() * (end - reached_[i]);
     reached_[i] = end;
@@ -145,7 +166,12 @@ class FilmWork {
   std::vector<std::uint32_t> reached_;  // by tile: the first sample that is not taken
   std::vector<char> settled_;           // by tile: it needs no more samples
   std::uint32_t least_ = 0;             // where the round began
-  std::vector<double> busy_seconds_;    // by worker: CPU time of taking samples
+  struct TileCut {
+    CutPaths of_paths;
+    std::uint64_t samples = 0;
+  };
+  std::vector<TileCut> cut_;          // by tile
+  std::vector<double> busy_seconds_;  // by worker: CPU time of taking samples
   Clock::time_point begun_ = Clock::now(), checkpoint_ = begun_;
 };
 
@@ -193,6 +219,7 @@ Result<Rendering> render(const Scene& scene, const Accelerator& accelerator, con
   }
   rendering.end = work.run(workers);
   rendering.done = work.done();
+  rendering.cut = work.cut();
   for (const auto& worker : workers) rendering.statistics += worker->statistics();
   rendering.cpu_seconds = work.busy_seconds();
   rendering.seconds = seconds_since(begun);

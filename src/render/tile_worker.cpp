@@ -48,13 +48,14 @@ TileWorker::TileWorker(const LitScene& scene, const SurfaceFeatures* features, c
       span_context_(wants_spans_ ? accelerator.make_context() : nullptr),
       integrator_(make_integrator(scene, accelerator, options)) {}
 
-void TileWorker::take(const PixelWindow& tile, std::uint32_t first, std::uint32_t end, Film& film) {
+CutPaths TileWorker::take(const PixelWindow& tile, std::uint32_t first, std::uint32_t end, Film& film) {
   for (std::uint32_t index = first; index < end; ++index) {
     aim(tile, index);
     accelerator_.first_hits(queries_, hits_, *context_);
     integrator_->radiance(queries_, hits_, ids_, light_, *context_);
     for (std::size_t i = 0; i < queries_.size(); ++i) add(i, film);
   }
+  return integrator_->take_cut_paths();
 }
 
 void TileWorker::aim(const PixelWindow& tile, std::uint32_t index) {

@@ -25,7 +25,8 @@ class TileWorker {
              const Accelerator& accelerator, const CameraRays& camera, const RenderOptions& options);
 
   /// Adds the samples [first, end) of a tile's pixels to a film.
-  void take(const PixelWindow& tile, std::uint32_t first, std::uint32_t end, Film& film);
+  /// @return what the limit of the depth cut off of them
+  CutPaths take(const PixelWindow& tile, std::uint32_t first, std::uint32_t end, Film& film);
 
   const TraversalStatistics& statistics() const { return context_->statistics; }
 

@@ -209,6 +209,27 @@ TEST_F(RenderCommand, ArgumentsThatDoNothingAreToldSo) {
   }
 }
 
+// In a closed room that returns 19 of 20 parts of the light, 0.95^20 of it takes more than 20 surfaces, and 0.95^200
+// cannot be seen.
+TEST_F(RenderCommand, LightThatTheDepthCutsIsTold) {
+  write("room.scad",
+        "camera(from = [0, -4, 0], at = [0, 0, 0]); light(type = \"sphere\", position = [0, 0, 3], radius = 0.5);\n"
+        "material(\"white\", model = \"lambert\", color = [0.977, 0.977, 0.977])\n"
+        "difference() { cube(12, center = true); cube(10, center = true); }\n");
+  const auto errors = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"render",       "room.scad", "-q", "--size", "16x12",   "--spp", "16",
+                                   "--integrator", "path",      "-o", "x.png",  "--stats", "s.json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words).err;
+  };
+  EXPECT_TRUE(contains(errors({}), "warning: paths of more than 20 surfaces may bring ")) << errors({});
+  const Json json = Json::parse(read("s.json"));
+  EXPECT_NEAR(json["share_cut"].get<double>(), std::pow(0.95, 20), 0.05);
+  EXPECT_GT(json["paths_cut"].get<int>(), 0);
+  EXPECT_EQ(errors({"--depth", "200"}), "");
+  EXPECT_EQ(errors({"--depth", "5"}), "") << "a choice";
+}
+
 TEST_F(RenderCommand, MetadataIsAsItWasGiven) {
   ASSERT_EQ(run({"render", "ball.scad", "-q", "--size", "8x6", "--noise", "0.05", "-o", "x.png"}).status, 0);
   EXPECT_TRUE(contains(read("x.png"), " --noise 0.05")) << read("x.png");
@@ -247,7 +268,7 @@ TEST_F(RenderCommand, StatisticsHaveTheirNames) {
   const Json json = Json::parse(read("s.json"));
   for (const char* name : {"accel", "threads", "build_seconds", "memory_bytes", "render_seconds", "rays",
                            "rays_per_second", "primitive_tests", "cells_visited", "next_box_calls", "mailbox_hits",
-                           "boxes", "depth", "mismatches", "seam_faults", "per_kind"}) {
+                           "boxes", "depth", "mismatches", "seam_faults", "per_kind", "paths_cut", "share_cut"}) {
     EXPECT_TRUE(json.contains(name)) << name;
   }
   EXPECT_EQ(json["rays"]["primary"], 32 * 24 * 2);

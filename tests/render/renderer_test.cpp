@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -220,6 +221,41 @@ TEST(Renderer, CheckpointsHoldWhatTheySay) {
   };
   ASSERT_TRUE(render(still.scene, still.accelerator, small(), control).ok());
   EXPECT_EQ(checkpoints, 5);
+}
+
+// Between two floors without end no path finds a way out: each surface keeps half of the light.
+TEST(Renderer, DepthCutsWhatPathsStillCarry) {
+  Still still;
+  Material matt;
+  matt.kd = 0.5, matt.ks = 0;
+  matt.color = Rgba{1, 1, 1, 1};
+  still.scene.materials = {matt};
+  still.scene.camera.from = {0, 0, 0};
+  still.scene.camera.at = {1, 0, 0};
+  still.accelerator = AnalyticAccelerator(
+      {{AnalyticSlab{-2, -1}, MaterialId{0}, medium_opaque}, {AnalyticSlab{1, 2}, MaterialId{0}, medium_opaque}});
+  RenderOptions options = small();
+  options.integrator = IntegratorKind::path;
+  for (const int depth : {1, 3}) {
+    options.depth = depth;
+    const DepthCut cut = still.render(options).cut;
+    EXPECT_EQ(cut.paths, 75U * 50U * 3U);
+    EXPECT_NEAR(cut.share, std::pow(0.5, depth), 1e-12);
+    // The smallest tile has 11 x 2 pixels, so there are fewer samples than that to be certain of it.
+    EXPECT_LT(cut.largest_share, cut.share);
+    EXPECT_GT(cut.largest_share, 0.75 * cut.share);
+    EXPECT_TRUE(cut.may_be_seen());
+  }
+  // Later surfaces are reached by chance, and with more.
+  options.depth = 6;
+  options.samples = 64;
+  EXPECT_NEAR(still.render(options).cut.share, std::pow(0.5, 6), 0.0007);
+  // Under an open sky nothing is cut.
+  still.accelerator = AnalyticAccelerator({{AnalyticSlab{-2, -1}, MaterialId{0}, medium_opaque}});
+  options.depth = 2;
+  const DepthCut none = still.render(options).cut;
+  EXPECT_EQ(none.paths, 0U);
+  EXPECT_FALSE(none.may_be_seen());
 }
 
 TEST(Renderer, TransparentBackgroundIsNotThere) {

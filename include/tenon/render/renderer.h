@@ -10,6 +10,7 @@
 #include "tenon/base/statistics.h"
 #include "tenon/film/film.h"
 #include "tenon/film/film_part.h"
+#include "tenon/render/depth_cut.h"
 #include "tenon/render/hatch.h"
 #include "tenon/render/progress.h"
 #include "tenon/scene/scene.h"
@@ -56,6 +57,7 @@ struct Rendering {
   std::vector<SampleBox> done;
   RenderEnd end = RenderEnd::finished;
   TraversalStatistics statistics;
+  DepthCut cut;            ///< of the samples that were taken now, where some were taken before
   double seconds = 0;      ///< on the wall
   double cpu_seconds = 0;  ///< of taking samples alone, over all threads: what is made once for a picture is not in it
   int threads = 1;
