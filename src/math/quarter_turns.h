@@ -36,16 +36,11 @@ inline SineCosine quarter_turn_sine_cosine(double q) {
   for (int i = 8; i >= 0; --i) cosine = (cosine + even[i]) * s;
   sine = x + x * sine;
   cosine = 1 + cosine;
-  switch (static_cast<long long>(whole) & 3) {
-    case 0:
-      return {sine, cosine};
-    case 1:
-      return {cosine, -sine};
-    case 2:
-      return {-sine, -cosine};
-    default:
-      return {-cosine, sine};
-  }
+  // Which quarter, without branches: compilers make vectors of loops over angles.
+  const double quarter = whole - 4 * std::floor(whole / 4);
+  const bool is_odd = quarter == 1 || quarter == 3;
+  const double along = is_odd ? cosine : sine, across = is_odd ? -sine : cosine;
+  return {quarter >= 2 ? -along : along, quarter >= 2 ? -across : across};
 }
 
 }  // namespace tenon

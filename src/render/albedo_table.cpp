@@ -8,7 +8,38 @@
 #include "render/microfacet.h"
 #include "render/optics.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/albedo_table.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+// What follows is compiled for each instruction set, for the compiler to make vectors of.
+HWY_BEFORE_NAMESPACE();
 namespace tenon {
+namespace HWY_NAMESPACE {
+
+// The cubic of Catmull and Rom through the four nodes around.
+void FindAlbedo(const AlbedoTable::Nodes& nodes, const NumberBlock& cos, std::size_t size,
+                NumberBlock& HWY_RESTRICT albedo) {
+  constexpr double last = AlbedoTable::intervals - 1;
+  for (std::size_t i = 0; i < size; ++i) {
+    const double x = std::sqrt(std::max(0.0, cos[i])) * AlbedoTable::intervals;
+    const double interval = x < last ? std::floor(x) : last;
+    const double t = x - interval;
+    const auto k = static_cast<std::size_t>(static_cast<int>(interval));
+    const double a = nodes[k], b = nodes[k + 1], c = nodes[k + 2], d = nodes[k + 3];
+    albedo[i] = b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tenon
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tenon {
+
+HWY_EXPORT(FindAlbedo);
 
 namespace {
 
@@ -45,23 +76,19 @@ double scattered(ScatteredPart part, double alpha, double eta, double cos) {
 }  // namespace
 
 AlbedoTable::AlbedoTable(ScatteredPart part, double alpha, double eta) {
-  for (int i = 0; i <= intervals; ++i) {
-    const double x = static_cast<double>(std::max(i, 1)) / intervals;
-    values_[static_cast<std::size_t>(i)] = scattered(part, alpha, eta, x * x);
+  double* const values = &nodes_[1];
+  for (int i = 1; i <= intervals; ++i) {
+    const double x = static_cast<double>(i) / intervals;
+    values[i] = scattered(part, alpha, eta, x * x);
   }
   // Straight along the surface every microfacet is masked; the value there is only ever interpolated towards.
-  values_[0] = std::max(0.0, 2 * values_[1] - values_[2]);
+  values[0] = std::max(0.0, 2 * values[1] - values[2]);
+  nodes_.front() = 2 * values[0] - values[1];
+  nodes_.back() = 2 * values[intervals] - values[intervals - 1];
 }
 
-double AlbedoTable::operator()(double cos) const {
-  const double x = std::sqrt(std::clamp(cos, 0.0, 1.0)) * intervals;
-  const int i = std::min(static_cast<int>(x), intervals - 1);
-  const double t = x - i;
-  const auto value = [&](int k) { return values_[static_cast<std::size_t>(k)]; };
-  // The cubic of Catmull and Rom through the four nodes around; beyond the ends it goes straight on.
-  const double b = value(i), c = value(i + 1);
-  const double a = i > 0 ? value(i - 1) : 2 * b - c, d = i + 2 <= intervals ? value(i + 2) : 2 * c - b;
-  return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
+void AlbedoTable::find(const NumberBlock& cos, std::size_t size, NumberBlock& albedo) const {
+  HWY_DYNAMIC_DISPATCH(FindAlbedo)(nodes_, cos, size, albedo);
 }
 
 AlbedoTables& AlbedoTables::shared() {
@@ -81,3 +108,4 @@ const AlbedoTable& AlbedoTables::get(ScatteredPart part, double alpha, double et
 }
 
 }  // namespace tenon
+#endif

@@ -6,6 +6,8 @@
 #include <memory>
 #include <shared_mutex>
 
+#include "render/block.h"
+
 namespace tenon {
 
 /// What single scattering by microfacets returns.
@@ -23,13 +25,17 @@ class AlbedoTable {
   /// @param eta    index of refraction before the surface over that behind it; not used for conductors
   AlbedoTable(ScatteredPart part, double alpha, double eta);
 
-  /// @param cos  of the angle to the normal, 0..1
-  double operator()(double cos) const;
+  /// @param cos   of the angles to the normal, 0..1
+  /// @param size  of the block, in whole vectors
+  void find(const NumberBlock& cos, std::size_t size, NumberBlock& albedo) const;
 
- private:
   // Nodes at cos = (i / intervals)^2: the albedo falls steeply where light grazes the surface.
   static constexpr int intervals = 64;
-  std::array<double, intervals + 1> values_;
+  /// The node before the first, all, and one behind the last: beyond its ends the curve goes straight on.
+  using Nodes = std::array<double, intervals + 3>;
+
+ private:
+  Nodes nodes_;
 };
 
 /// Tables, each made when it is first asked for. Which they are does not depend on who asks first.

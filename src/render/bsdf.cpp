@@ -4,164 +4,313 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "render/microfacet.h"
 #include "render/optics.h"
 #include "render/sphere_sampling.h"
 
-namespace tenon {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/bsdf.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
+#ifndef TENON_RENDER_BSDF_CPP_
+#define TENON_RENDER_BSDF_CPP_
+namespace tenon {
 namespace {
 
-bool is_rough(Lobe::Kind kind) {
+inline bool is_rough(Lobe::Kind kind) {
   return kind == Lobe::Kind::conductor || kind == Lobe::Kind::gloss || kind == Lobe::Kind::rough_dielectric;
 }
 
-bool is_spread(Lobe::Kind kind) {
+inline bool is_spread(Lobe::Kind kind) {
   return kind == Lobe::Kind::diffuse || is_rough(kind);
 }
 
-// What a microfacet reflects.
-Rgb reflected_by(const Lobe& lobe, double cos) {
-  if (lobe.kind == Lobe::Kind::conductor) {
-    return {fresnel_schlick(cos, lobe.f0.r), fresnel_schlick(cos, lobe.f0.g), fresnel_schlick(cos, lobe.f0.b)};
-  }
-  const double f = fresnel_dielectric(cos, lobe.eta);
-  return {f, f, f};
-}
-
-BsdfValue diffuse(const Lobe& lobe, const Vec3& wi) {
-  if (!(wi.z > 0)) return {};
-  const double density = wi.z / std::numbers::pi;
-  return {density * lobe.weight, density};
-}
-
-// Walter et al. 2007, equations 20 and 14; in a rough dielectric it is reflection that is drawn with Fresnel's share.
-BsdfValue rough_reflection(const Lobe& lobe, const Vec3& wo, const Vec3& wi) {
-  const Microfacets facets(lobe.alpha);
-  const Vec3 h = wo + wi;
-  const double squared = dot(h, h);
-  const double spread = facets.density(h, squared) / (4 * wo.z);
-  // The microfacet halves the angle between directions of length 1: its cosine is half of their sum's length.
-  const Rgb fresnel = reflected_by(lobe, 0.5 * std::sqrt(squared));
-  const double lambda_i = facets.lambda(wi);
-  const double density =
-      Microfacets::masking(lobe.lambda) * spread * (lobe.kind == Lobe::Kind::rough_dielectric ? fresnel.r : 1);
-  const double kept = lobe.scale * Microfacets::masking_shadowing(lobe.lambda, lambda_i) * spread;
-  return {kept * (lobe.weight * fresnel), density};
-}
+/// What a sample is made of: the lobe that is chosen, and what is left of the choice, which is as good as a new one.
+struct LobeChoices {
+  NumberBlock lobe, rest;
+};
 
 // Walter et al. 2007, equations 21 and 17, with the indices divided by that behind the surface.
-BsdfValue rough_refraction(const Lobe& lobe, const Vec3& wo, const Vec3& wi) {
+inline void add_refraction(const Lobe& lobe, const Vec3& wo, const Vec3& wi, std::size_t i,
+                           BsdfValues& HWY_RESTRICT sum) {
   const Vec3 h = lobe.eta * wo + wi;
   const double squared = dot(h, h);
   const Vec3 m = h / (h.z < 0 ? -std::sqrt(squared) : std::sqrt(squared));
   const double cos_o = dot(wo, m), cos_i = dot(wi, m);
-  if (!(cos_o > 0) || !(cos_i < 0)) return {};
+  if (!(cos_o > 0) || !(cos_i < 0)) return;
   const double share = 1 - fresnel_dielectric(cos_o, lobe.eta);
   const double bend = lobe.eta * cos_o + cos_i;
   const Microfacets facets(lobe.alpha);
   const double spread = share * cos_o * facets.density(h, squared) / wo.z * (-cos_i / (bend * bend));
-  const double kept = lobe.scale * Microfacets::masking_shadowing(lobe.lambda, facets.lambda(wi)) * spread;
-  return {(kept * lobe.eta * lobe.eta) * (lobe.weight * lobe.tint), Microfacets::masking(lobe.lambda) * spread};
+  const double kept = Microfacets::masking_shadowing(lobe.lambda[i], facets.lambda(wi)) * spread;
+  sum.light.set(i, sum.light[i] + (kept * lobe.eta * lobe.eta) * (lobe.weight[i] * lobe.color[i]));
+  sum.density[i] += lobe.importance[i] * Microfacets::masking(lobe.lambda[i]) * spread;
 }
 
-BsdfValue evaluate_lobe(const Lobe& lobe, const Vec3& wo, const Vec3& wi) {
-  if (lobe.kind == Lobe::Kind::diffuse) return diffuse(lobe, wi);
-  if (!is_spread(lobe.kind)) return {};
-  if (wi.z > 0) return rough_reflection(lobe, wo, wi);
-  if (wi.z < 0 && lobe.kind == Lobe::Kind::rough_dielectric) return rough_refraction(lobe, wo, wi);
-  return {};
-}
-
-BsdfSample mirrored(const Vec3& wo) {
-  BsdfSample sample;
-  sample.direction = {-wo.x, -wo.y, wo.z};
-  return sample;
-}
-
-// Reflection or refraction at a smooth surface, weights without the lobe's.
-BsdfSample sharp(const Lobe& lobe, const Vec3& wo, double choice) {
-  BsdfSample sample = mirrored(wo);
-  sample.weight = {1, 1, 1};
-  if (lobe.kind == Lobe::Kind::mirror) return sample;
+// Reflection or refraction at a smooth surface.
+// @param total   of the importances of all lobes
+// @param choice  between the two
+inline void set_sharp(const Lobe& lobe, double total, const Vec3& wo, double choice, std::size_t i,
+                      BsdfSamples& HWY_RESTRICT samples) {
+  const Rgb weight = (total / lobe.importance[i]) * lobe.weight[i];
+  samples.density[i] = 0;
+  samples.weight.set(i, weight);
+  samples.direction.set(i, {-wo.x, -wo.y, wo.z});
+  if (lobe.kind == Lobe::Kind::mirror) return;
   const bool by_fresnel = lobe.kind == Lobe::Kind::dielectric;
-  if (by_fresnel && choice < fresnel_dielectric(wo.z, lobe.eta)) return sample;
+  if (by_fresnel && choice < fresnel_dielectric(wo.z, lobe.eta)) return;
   const auto refracted = refract(-wo, {0, 0, 1}, lobe.eta);
-  if (!refracted) return sample;
-  sample.direction = *refracted;
-  sample.is_transmitted = true;
-  sample.is_unbent = lobe.is_window && lobe.eta == 1;
-  if (by_fresnel) sample.weight = lobe.eta * lobe.eta * lobe.tint;
-  return sample;
-}
-
-// A direction of a lobe that spreads light.
-std::optional<Vec3> sample_spread(const Lobe& lobe, const Vec3& wo, double choice, const Sample2& place) {
-  if (lobe.kind == Lobe::Kind::diffuse) return cosine_hemisphere(place);
-  const Vec3 m = Microfacets(lobe.alpha).sample_visible(wo, place);
-  if (lobe.kind == Lobe::Kind::rough_dielectric && !(choice < fresnel_dielectric(dot(wo, m), lobe.eta))) {
-    const auto refracted = refract(-wo, m, lobe.eta);
-    if (!refracted || !(refracted->z < 0)) return std::nullopt;
-    return refracted;
-  }
-  const Vec3 reflected = reflect(-wo, m);
-  if (!(reflected.z > 0)) return std::nullopt;
-  return reflected;
+  if (!refracted) return;
+  samples.direction.set(i, *refracted);
+  samples.is_unbent[i] = lobe.is_window && lobe.eta == 1;
+  if (by_fresnel) samples.weight.set(i, lobe.eta * lobe.eta * (weight * lobe.color[i]));
 }
 
 }  // namespace
+}  // namespace tenon
+#endif
 
-Lobe* Bsdf::add(Lobe::Kind kind, const Rgb& weight, double importance, double alpha) {
-  if (!(importance > 0)) return nullptr;
+// What follows is compiled for each instruction set, for the compiler to make vectors of.
+HWY_BEFORE_NAMESPACE();
+namespace tenon {
+namespace HWY_NAMESPACE {
+
+void FindLambda(const Vec3Block& wo, std::size_t size, Lobe& HWY_RESTRICT lobe) {
+  const Microfacets facets(lobe.alpha);
+  for (std::size_t i = 0; i < size; ++i) lobe.lambda[i] = facets.lambda(wo[i]);
+}
+
+void AddDiffuse(const Lobe& lobe, const Vec3Block& wi, std::size_t size, BsdfValues& HWY_RESTRICT sum) {
+  for (std::size_t i = 0; i < size; ++i) {
+    const bool counts = wi.z[i] > 0 && lobe.importance[i] > 0;
+    const double density = counts ? wi.z[i] * std::numbers::inv_pi : 0;
+    sum.light.r[i] += density * lobe.weight.r[i];
+    sum.light.g[i] += density * lobe.weight.g[i];
+    sum.light.b[i] += density * lobe.weight.b[i];
+    sum.density[i] += density * lobe.importance[i];
+  }
+}
+
+// Walter et al. 2007, equations 20 and 14; in a rough dielectric it is reflection that is drawn with Fresnel's share.
+// @param reflected  what microfacets reflect, by point and cosine
+template <bool is_drawn_by_fresnel, class Reflected>
+HWY_INLINE void AddReflection(const Lobe& lobe, const Vec3Block& wo_block, const Vec3Block& wi_block, std::size_t size,
+                              const Reflected& reflected, BsdfValues& HWY_RESTRICT sum) {
+  const Microfacets facets(lobe.alpha);
+  for (std::size_t i = 0; i < size; ++i) {
+    const Vec3 wo = wo_block[i], wi = wi_block[i];
+    const Vec3 h = wo + wi;
+    const double squared = dot(h, h);
+    const double spread = facets.density(h, squared) / (4 * wo.z);
+    // The microfacet halves the angle between directions of length 1: its cosine is half of their sum's length.
+    const Rgb fresnel = reflected(i, 0.5 * std::sqrt(squared));
+    const bool counts = wi.z > 0 && lobe.importance[i] > 0;
+    const double drawn = counts ? Microfacets::masking(lobe.lambda[i]) * spread : 0;
+    const double kept = counts ? Microfacets::masking_shadowing(lobe.lambda[i], facets.lambda(wi)) * spread : 0;
+    sum.light.r[i] += kept * (lobe.weight.r[i] * fresnel.r);
+    sum.light.g[i] += kept * (lobe.weight.g[i] * fresnel.g);
+    sum.light.b[i] += kept * (lobe.weight.b[i] * fresnel.b);
+    sum.density[i] += lobe.importance[i] * drawn * (is_drawn_by_fresnel ? fresnel.r : 1);
+  }
+}
+
+void AddConductor(const Lobe& lobe, const Vec3Block& wo, const Vec3Block& wi, std::size_t size,
+                  BsdfValues& HWY_RESTRICT sum) {
+  const auto by_schlick = [&lobe](std::size_t i, double cos) -> Rgb {
+    const Rgb f0 = lobe.color[i];
+    return {fresnel_schlick(cos, f0.r), fresnel_schlick(cos, f0.g), fresnel_schlick(cos, f0.b)};
+  };
+  AddReflection<false>(lobe, wo, wi, size, by_schlick, sum);
+}
+
+template <bool is_drawn_by_fresnel>
+HWY_INLINE void AddDielectric(const Lobe& lobe, const Vec3Block& wo, const Vec3Block& wi, std::size_t size,
+                              BsdfValues& HWY_RESTRICT sum) {
+  const auto by_fresnel = [eta = lobe.eta](std::size_t, double cos) -> Rgb {
+    const double f = fresnel_dielectric(cos, eta);
+    return {f, f, f};
+  };
+  AddReflection<is_drawn_by_fresnel>(lobe, wo, wi, size, by_fresnel, sum);
+}
+
+void AddRefraction(const Lobe& lobe, const Vec3Block& wo, const Vec3Block& wi, std::size_t size,
+                   BsdfValues& HWY_RESTRICT sum) {
+  for (std::size_t i = 0; i < size; ++i) {
+    if (wi.z[i] < 0 && lobe.importance[i] > 0) add_refraction(lobe, wo[i], wi[i], i, sum);
+  }
+}
+
+void Evaluate(std::span<const Lobe> lobes, const NumberBlock& total, const Vec3Block& wo, const Vec3Block& wi,
+              std::size_t size, BsdfValues& HWY_RESTRICT sum) {
+  for (NumberBlock* numbers : {&sum.light.r, &sum.light.g, &sum.light.b, &sum.density}) {
+    std::fill_n(numbers->begin(), size, 0.0);
+  }
+  for (const Lobe& lobe : lobes) {
+    switch (lobe.kind) {
+      case Lobe::Kind::diffuse:
+        AddDiffuse(lobe, wi, size, sum);
+        break;
+      case Lobe::Kind::conductor:
+        AddConductor(lobe, wo, wi, size, sum);
+        break;
+      case Lobe::Kind::gloss:
+        AddDielectric<false>(lobe, wo, wi, size, sum);
+        break;
+      case Lobe::Kind::rough_dielectric:
+        AddDielectric<true>(lobe, wo, wi, size, sum);
+        AddRefraction(lobe, wo, wi, size, sum);
+        break;
+      case Lobe::Kind::mirror:
+      case Lobe::Kind::refraction:
+      case Lobe::Kind::dielectric:
+        break;
+    }
+  }
+  for (std::size_t i = 0; i < size; ++i) sum.density[i] = total[i] > 0 ? sum.density[i] / total[i] : 0;
+}
+
+void ChooseLobes(std::span<const Lobe> lobes, const NumberBlock& total, const NumberBlock& choice, std::size_t size,
+                 LobeChoices& HWY_RESTRICT choices) {
+  NumberBlock left;  // of the choice, by importance; below 0 once it has fallen on a lobe
+  for (std::size_t i = 0; i < size; ++i) {
+    left[i] = choice[i] * total[i];
+    choices.lobe[i] = -1;
+    choices.rest[i] = 0;
+  }
+  for (std::size_t k = 0; k < lobes.size(); ++k) {
+    const NumberBlock& importance = lobes[k].importance;
+    const auto number = static_cast<double>(k);
+    for (std::size_t i = 0; i < size; ++i) {
+      const bool may_be = left[i] >= 0 && importance[i] > 0;
+      choices.rest[i] = may_be ? std::min(left[i] / importance[i], 1.0) : choices.rest[i];
+      choices.lobe[i] = may_be ? number : choices.lobe[i];
+      left[i] -= importance[i];
+    }
+  }
+}
+
+void SampleDiffuse(double number, const LobeChoices& choices, const Sample2Block& place, std::size_t size,
+                   Vec3Block& HWY_RESTRICT direction) {
+  for (std::size_t i = 0; i < size; ++i) {
+    const Vec3 drawn = cosine_hemisphere(place[i]);
+    const bool is_chosen = choices.lobe[i] == number;
+    direction.x[i] = is_chosen ? drawn.x : direction.x[i];
+    direction.y[i] = is_chosen ? drawn.y : direction.y[i];
+    direction.z[i] = is_chosen ? drawn.z : direction.z[i];
+  }
+}
+
+// What a rough surface reflects; lost directions, which would go below it, end with z = 0.
+void SampleReflection(double number, double alpha, const LobeChoices& choices, const Vec3Block& wo_block,
+                      const Sample2Block& place, std::size_t size, Vec3Block& HWY_RESTRICT direction) {
+  const Microfacets facets(alpha);
+  for (std::size_t i = 0; i < size; ++i) {
+    const Vec3 wo = wo_block[i];
+    const Vec3 m = facets.sample_visible(wo, place[i]);
+    const Vec3 drawn = (2 * dot(wo, m)) * m - wo;
+    const bool is_chosen = choices.lobe[i] == number;
+    direction.x[i] = is_chosen ? drawn.x : direction.x[i];
+    direction.y[i] = is_chosen ? drawn.y : direction.y[i];
+    direction.z[i] = is_chosen ? std::max(0.0, drawn.z) : direction.z[i];
+  }
+}
+
+// What a rough dielectric refracts of what SampleReflection() had reflected. Lost directions end with z = 0.
+void SampleRefraction(double number, const Lobe& lobe, const LobeChoices& choices, const Vec3Block& wo_block,
+                      const Sample2Block& place, std::size_t size, Vec3Block& HWY_RESTRICT direction) {
+  const Microfacets facets(lobe.alpha);
+  for (std::size_t i = 0; i < size; ++i) {
+    if (choices.lobe[i] != number) continue;
+    const Vec3 wo = wo_block[i];
+    const Vec3 m = facets.sample_visible(wo, place[i]);
+    if (choices.rest[i] < fresnel_dielectric(dot(wo, m), lobe.eta)) continue;
+    const auto refracted = refract(-wo, m, lobe.eta);
+    direction.set(i, refracted && refracted->z < 0 ? *refracted : Vec3{});
+  }
+}
+
+void SampleSpread(std::span<const Lobe> lobes, const LobeChoices& choices, const Vec3Block& wo,
+                  const Sample2Block& place, std::size_t size, Vec3Block& HWY_RESTRICT direction) {
+  for (std::size_t k = 0; k < lobes.size(); ++k) {
+    const Lobe& lobe = lobes[k];
+    const auto number = static_cast<double>(k);
+    if (lobe.kind == Lobe::Kind::diffuse) SampleDiffuse(number, choices, place, size, direction);
+    if (is_rough(lobe.kind)) SampleReflection(number, lobe.alpha, choices, wo, place, size, direction);
+    if (lobe.kind == Lobe::Kind::rough_dielectric) {
+      SampleRefraction(number, lobe, choices, wo, place, size, direction);
+    }
+  }
+}
+
+void Sample(std::span<const Lobe> lobes, const NumberBlock& total, const Vec3Block& wo, const NumberBlock& choice,
+            const Sample2Block& place, std::size_t size, BsdfSamples& HWY_RESTRICT samples) {
+  LobeChoices choices;
+  ChooseLobes(lobes, total, choice, size, choices);
+  SampleSpread(lobes, choices, wo, place, size, samples.direction);
+  BsdfValues values;
+  Evaluate(lobes, total, wo, samples.direction, size, values);
+  for (std::size_t i = 0; i < size; ++i) {
+    const double weight = values.density[i] > 0 ? 1 / values.density[i] : 0;
+    samples.weight.r[i] = weight * values.light.r[i];
+    samples.weight.g[i] = weight * values.light.g[i];
+    samples.weight.b[i] = weight * values.light.b[i];
+    samples.density[i] = values.density[i];
+  }
+  std::fill_n(samples.is_unbent.begin(), size, std::uint8_t{0});
+  for (std::size_t k = 0; k < lobes.size(); ++k) {
+    if (is_spread(lobes[k].kind)) continue;
+    for (std::size_t i = 0; i < size; ++i) {
+      if (choices.lobe[i] == static_cast<double>(k)) set_sharp(lobes[k], total[i], wo[i], choices.rest[i], i, samples);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tenon
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tenon {
+
+HWY_EXPORT(FindLambda);
+HWY_EXPORT(Evaluate);
+HWY_EXPORT(Sample);
+
+void Bsdf::start(const Vec3Block& wo, std::size_t count) {
+  wo_ = &wo;
+  size_ = whole_vectors(count);
+  count_ = 0;
+}
+
+Lobe& Bsdf::add(Lobe::Kind kind, double alpha) {
   assert(count_ < most_lobes);
   Lobe& lobe = lobes_[count_++];
   lobe.kind = kind;
-  lobe.weight = weight;
-  lobe.probability = importance;
   lobe.alpha = alpha;
-  if (is_rough(kind)) lobe.lambda = Microfacets(alpha).lambda(wo_);
-  lobe.scale = 1;
   lobe.is_window = false;
-  total_ += importance;
-  spreads_ |= is_spread(kind);
-  return &lobe;
+  return lobe;
 }
 
-BsdfValue Bsdf::evaluate(const Vec3& wi) const {
-  BsdfValue sum;
-  for (std::size_t i = 0; i < count_; ++i) {
-    const BsdfValue value = evaluate_lobe(lobes_[i], wo_, wi);
-    sum.light += value.light;
-    sum.density += lobes_[i].probability * value.density;
+void Bsdf::complete() {
+  spreads_ = false;
+  std::fill_n(total_.begin(), size_, 0.0);
+  for (Lobe& lobe : std::span(lobes_).first(count_)) {
+    spreads_ |= is_spread(lobe.kind);
+    if (is_rough(lobe.kind)) HWY_DYNAMIC_DISPATCH(FindLambda)(*wo_, size_, lobe);
+    for (std::size_t i = 0; i < size_; ++i) total_[i] += lobe.importance[i];
   }
-  if (count_ > 0) sum.density /= total_;
-  return sum;
 }
 
-std::optional<BsdfSample> Bsdf::sample(double choice, const Sample2& place) const {
-  if (count_ == 0) return std::nullopt;
-  double rest = choice * total_;
-  std::size_t i = 0;
-  while (i + 1 < count_ && rest >= lobes_[i].probability) rest -= lobes_[i++].probability;
-  const Lobe& lobe = lobes_[i];
-  // What is left of the choice is as good as a new one.
-  const double second = std::min(rest / lobe.probability, 1.0);
-  if (!is_spread(lobe.kind)) {
-    BsdfSample sample = sharp(lobe, wo_, second);
-    sample.weight = sample.weight * lobe.weight * (total_ / lobe.probability);
-    return sample;
-  }
-  const auto direction = sample_spread(lobe, wo_, second, place);
-  if (!direction) return std::nullopt;
-  const BsdfValue value = evaluate(*direction);
-  if (!(value.density > 0)) return std::nullopt;
-  BsdfSample sample;
-  sample.direction = *direction;
-  sample.weight = value.light * (1 / value.density);
-  sample.density = value.density;
-  sample.is_transmitted = direction->z < 0;
-  return sample;
+void Bsdf::evaluate(const Vec3Block& wi, BsdfValues& values) const {
+  HWY_DYNAMIC_DISPATCH(Evaluate)(std::span(lobes_).first(count_), total_, *wo_, wi, size_, values);
+}
+
+void Bsdf::sample(const NumberBlock& choice, const Sample2Block& place, BsdfSamples& samples) const {
+  HWY_DYNAMIC_DISPATCH(Sample)(std::span(lobes_).first(count_), total_, *wo_, choice, place, size_, samples);
 }
 
 }  // namespace tenon
+#endif

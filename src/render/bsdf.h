@@ -1,85 +1,84 @@
 #pragma once
 
 #include <array>
-#include <optional>
+#include <cstdint>
 
-#include "render/albedo_table.h"
-#include "render/sampler.h"
-#include "tenon/math/color.h"
-#include "tenon/math/vec3.h"
+#include "render/block.h"
 
 namespace tenon {
 
-/// One of the ways a surface scatters light. What its kind has no use for need not be set.
+/// One of the ways a surface scatters light, at each point of a block. What its kind has no use for need not be set.
 struct Lobe {
   enum class Kind {
     diffuse,           ///< Lambert
     mirror,            ///< reflects
     refraction,        ///< refracts all it gets, the course's kt; reflects it under total reflection
     dielectric,        ///< reflects and refracts by Fresnel
-    conductor,         ///< rough; Fresnel by Schlick from f0
+    conductor,         ///< rough; Fresnel by Schlick from the colour
     gloss,             ///< rough; the reflection of a dielectric alone
     rough_dielectric,  ///< rough; reflects and refracts
   };
 
   Kind kind;
-  Rgb weight;
-  double probability;  ///< of being drawn
-  double alpha;        ///< of rough kinds: GGX's width
-  double eta;          ///< of dielectric kinds and refraction: index before the surface over that behind it
-  double scale;        ///< of rough kinds: makes up for what single scattering loses
-  double lambda;       ///< of rough kinds: Smith's Lambda of where the light goes
-  Rgb f0;              ///< of conductors
-  Rgb tint;            ///< of what dielectrics let through
-  bool is_window;      ///< where it does not bend light, shadow rays pass it as well (Surface::unbent)
+  double alpha;    ///< of rough kinds: GGX's width
+  double eta;      ///< of dielectric kinds and refraction: index before the surface over that behind it
+  bool is_window;  ///< where it does not bend light, shadow rays pass it as well (Surface::unbent)
+  RgbBlock weight;
+  NumberBlock importance;  ///< relative, of being drawn; where it is 0 the lobe does not count
+  RgbBlock color;          ///< what conductors reflect straight on; the tint of what dielectrics let through
+  NumberBlock lambda;      ///< of rough kinds, set by Bsdf::complete(): Smith's Lambda of where the light goes
 };
 
-/// A direction that light may have come from.
-struct BsdfSample {
-  Vec3 direction;
-  Rgb weight;          ///< BSDF times cosine over density
-  double density = 0;  ///< per solid angle; 0 when the direction is the only one of its kind (mirror, refraction)
-  bool is_transmitted = false;  ///< the direction lies behind the surface
-  bool is_unbent = false;       ///< straight on through the surface
+/// Directions that light may have come from.
+struct BsdfSamples {
+  Vec3Block direction;
+  RgbBlock weight;      ///< BSDF times cosine over density; black: the light is lost
+  NumberBlock density;  ///< per solid angle; 0 when the direction is the only one of its kind (mirror, refraction)
+  std::array<std::uint8_t, block_size> is_unbent;  ///< straight on through the surface
+
+  /// Whether the direction lies behind the surface.
+  bool is_transmitted(std::size_t i) const { return direction.z[i] < 0; }
 };
 
-/// What a BSDF sends on, and how likely it would have drawn the direction.
-struct BsdfValue {
-  Rgb light;           ///< BSDF times cosine
-  double density = 0;  ///< per solid angle
+/// What BSDFs send on, and how likely they would have drawn the directions.
+struct BsdfValues {
+  RgbBlock light;       ///< BSDF times cosine
+  NumberBlock density;  ///< per solid angle
 };
 
-/// How a surface scatters light at one point, seen from one direction: a sum of lobes.
+/// How a surface scatters light at each point of a block, seen from one direction: a sum of lobes.
 ///
 /// Directions are local: z is the surface's normal on the viewer's side. Light is radiance: it grows by the square of
 /// the index of refraction where it is refracted, but for Kind::refraction, which knows shares alone as the course
 /// does.
 class Bsdf {
  public:
-  /// @param wo  where the light goes, z > 0
-  explicit Bsdf(const Vec3& wo) : wo_(wo) {}
+  /// Begins anew, without lobes.
+  /// @param wo     where the light goes, z > 0; outlives what is done with it
+  /// @param count  of points
+  void start(const Vec3Block& wo, std::size_t count);
+  /// Adds a lobe that is no window, whose weight and importance, and what else its kind wants, are to be set.
+  Lobe& add(Lobe::Kind kind, double alpha = 0);
+  /// Ends the adding of lobes.
+  void complete();
 
-  /// Adds a lobe that shows its microfacets' width (0: it has none), and neither scales nor is a window.
-  /// @param importance  relative, of the lobe's being drawn
-  /// @return where the kind's other parameters go; null: a lobe of no importance is left out
-  Lobe* add(Lobe::Kind kind, const Rgb& weight, double importance, double alpha = 0);
-
-  /// The light from wi of all lobes that spread it; nothing when wi can only be met by chance.
-  BsdfValue evaluate(const Vec3& wi) const;
+  /// The light from wi of all lobes that spread it; nothing where wi can only be met by chance.
+  void evaluate(const Vec3Block& wi, BsdfValues& values) const;
   /// @param choice  in (0, 1): which lobe
-  /// @return none: the light is lost
-  std::optional<BsdfSample> sample(double choice, const Sample2& place) const;
+  void sample(const NumberBlock& choice, const Sample2Block& place, BsdfSamples& samples) const;
 
   /// Whether any lobe spreads light, so that evaluate() is worth while.
   bool spreads() const { return spreads_; }
+  std::size_t size() const { return size_; }
 
  private:
   static constexpr std::size_t most_lobes = 5;
 
-  Vec3 wo_;
-  std::array<Lobe, most_lobes> lobes_;  // not set from count_ on
+  const Vec3Block* wo_ = nullptr;
+  std::size_t size_ = 0;  // of the block, in whole vectors
+  std::array<Lobe, most_lobes> lobes_;
   std::size_t count_ = 0;
-  double total_ = 0;  // of the importances
+  NumberBlock total_{};  // of the importances
   bool spreads_ = false;
 };
 

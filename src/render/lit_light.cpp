@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "math/quarter_turns.h"
 #include "render/sphere_sampling.h"
 #include "tenon/math/affine3.h"
 
@@ -88,59 +89,63 @@ double LitLight::importance_at(const Vec3& point) const {
   return largest(emitted_) * std::min(1.0, area_ / (pi * dot(to_light, to_light)));
 }
 
-std::optional<LightSample> LitLight::sample(const Vec3& point, const Sample2& place) const {
-  if (kind_ == LightKind::rectangle) return sample_rectangle(point, place);
-  if (kind_ == LightKind::sphere) return sample_sphere(point, place);
-  if (environment_ != nullptr) return sample_environment(place);
+// Part by part, where it stays: a copy of what was just put together waits for all of its parts.
+bool LitLight::draw(const Vec3& point, const Sample2& place, LightSample& sample) const {
+  if (has_surface() || environment_ != nullptr) return draw_other(point, place, sample);
   const IncidentLight incident = at(point);
-  if (incident.light == Rgb{}) return std::nullopt;
-  LightSample sample;
   sample.to_light = incident.to_light;
   sample.t_max = incident.t_max;
+  sample.cos = 1;
   sample.light = pi * incident.light;
-  return sample;
+  sample.density = 0;
+  return incident.light != Rgb{};
 }
 
-std::optional<LightSample> LitLight::sample_rectangle(const Vec3& point, const Sample2& place) const {
-  LightSample sample;
+bool LitLight::draw_other(const Vec3& point, const Sample2& place, LightSample& sample) const {
+  if (kind_ == LightKind::rectangle) return draw_from_rectangle(point, place, sample);
+  if (kind_ == LightKind::sphere) return draw_from_sphere(point, place, sample);
+  return draw_from_environment(place, sample);
+}
+
+bool LitLight::draw_from_rectangle(const Vec3& point, const Sample2& place, LightSample& sample) const {
   sample.to_light = position_ + (place.u - 0.5) * edge_u_ + (place.v - 0.5) * edge_v_ - point;
   sample.t_max = 1;
   const double squared = dot(sample.to_light, sample.to_light);
   sample.cos = -dot(sample.to_light, direction_) / std::sqrt(squared);
-  if (!(sample.cos > 0)) return std::nullopt;
+  if (!(sample.cos > 0)) return false;
   sample.density = squared / (sample.cos * area_);
   sample.light = emitted_ * (1 / sample.density);
-  return sample;
+  return true;
 }
 
 // Evenly over the cone that the sphere fills.
-std::optional<LightSample> LitLight::sample_sphere(const Vec3& point, const Sample2& place) const {
+bool LitLight::draw_from_sphere(const Vec3& point, const Sample2& place, LightSample& sample) const {
   const Vec3 to_center = position_ - point;
   const double distance = length(to_center), sin_squared = radius_ * radius_ / (distance * distance);
-  if (!(sin_squared < 1)) return std::nullopt;
+  if (!(sin_squared < 1)) return false;
   const double away = place.u * one_minus_cos(sin_squared);  // 1 - cos of the angle from the centre
-  const double sin = std::sqrt(away * (2 - away)), phi = 2 * pi * place.v;
-  const Vec3 direction = Frame(to_center / distance).to_world({sin * std::cos(phi), sin * std::sin(phi), 1 - away});
+  const double sin = std::sqrt(away * (2 - away));
+  const SineCosine around = quarter_turn_sine_cosine(4 * place.v);
+  const Vec3 direction = Frame(to_center / distance).to_world({sin * around.cosine, sin * around.sine, 1 - away});
   const double from_axis = distance * sin;
   const double half_chord = std::sqrt(std::max(0.0, radius_ * radius_ - from_axis * from_axis));
-  LightSample sample;
   sample.to_light = (distance * (1 - away) - half_chord) * direction;
   sample.t_max = 1;
   sample.cos = half_chord / radius_;
   sample.density = 1 / (2 * pi * one_minus_cos(sin_squared));
   sample.light = emitted_ * (1 / sample.density);
-  return sample;
+  return true;
 }
 
-std::optional<LightSample> LitLight::sample_environment(const Sample2& place) const {
+bool LitLight::draw_from_environment(const Sample2& place, LightSample& sample) const {
   const auto drawn = environment_->sample(place);
-  if (!drawn) return std::nullopt;
-  LightSample sample;
+  if (!drawn) return false;
   sample.to_light = drawn->direction;
   sample.t_max = inf;
+  sample.cos = 1;
   sample.density = drawn->density;
   sample.light = drawn->radiance * (1 / drawn->density);
-  return sample;
+  return true;
 }
 
 std::optional<LightHit> LitLight::intersect(const Ray& ray) const {

@@ -51,8 +51,10 @@ class LitLight {
   /// a uniform world, of which no direction is worth drawing.
   double importance(const Vec3& point) const { return even_importance_ ? *even_importance_ : importance_at(point); }
 
-  /// Draws a direction to the light, by a place that only a light with extent has; none where none of it can be seen.
-  std::optional<LightSample> sample(const Vec3& point, const Sample2& place) const;
+  /// Draws a direction to the light, by a place that only a light with extent has.
+  /// @param sample  receives it
+  /// @return false where none of it can be seen
+  bool draw(const Vec3& point, const Sample2& place, LightSample& sample) const;
 
   /// Where a ray from the origin, of length 1, meets the light's surface; none for lights without one.
   std::optional<LightHit> intersect(const Ray& ray) const;
@@ -67,9 +69,10 @@ class LitLight {
   double importance_at(const Vec3& point) const;
   double spot_share(const Vec3& to_light) const;
   double fading(const Vec3& to_light) const;
-  std::optional<LightSample> sample_rectangle(const Vec3& point, const Sample2& place) const;
-  std::optional<LightSample> sample_sphere(const Vec3& point, const Sample2& place) const;
-  std::optional<LightSample> sample_environment(const Sample2& place) const;
+  bool draw_other(const Vec3& point, const Sample2& place, LightSample& sample) const;
+  bool draw_from_rectangle(const Vec3& point, const Sample2& place, LightSample& sample) const;
+  bool draw_from_sphere(const Vec3& point, const Sample2& place, LightSample& sample) const;
+  bool draw_from_environment(const Sample2& place, LightSample& sample) const;
   std::optional<LightHit> intersect_rectangle(const Ray& ray) const;
   std::optional<LightHit> intersect_sphere(const Ray& ray) const;
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "math/quarter_turns.h"
 #include "render/sampler.h"
 #include "tenon/math/vec3.h"
 
@@ -25,11 +25,9 @@ class Microfacets {
     return a2 * (squared * squared) / (std::numbers::pi * (t * t));
   }
 
-  /// Smith's Lambda.
+  /// Smith's Lambda; infinite along the surface.
   double lambda(const Vec3& v) const {
-    const double z = v.z * v.z;
-    if (z == 0) return std::numeric_limits<double>::infinity();
-    return 0.5 * (std::sqrt(1 + alpha_ * alpha_ * (v.x * v.x + v.y * v.y) / z) - 1);
+    return 0.5 * (std::sqrt(1 + alpha_ * alpha_ * (v.x * v.x + v.y * v.y) / (v.z * v.z)) - 1);
   }
   /// The share of the microfacets that are seen unmasked from where lambda() is that.
   static double masking(double lambda_o) { return 1 / (1 + lambda_o); }
@@ -39,15 +37,18 @@ class Microfacets {
   /// A microfacet's normal, drawn among those that wo sees (Dupuy and Benyoub, "Sampling Visible GGX Normals with
   /// Spherical Caps", 2023).
   Vec3 sample_visible(const Vec3& wo, const Sample2& sample) const {
-    const Vec3 stretched = normalize({alpha_ * wo.x, alpha_ * wo.y, wo.z});
-    const double phi = 2 * std::numbers::pi * sample.u;
+    const Vec3 stretched = unit({alpha_ * wo.x, alpha_ * wo.y, wo.z});
+    const SineCosine phi = quarter_turn_sine_cosine(4 * sample.u);
     const double z = (1 - sample.v) * (1 + stretched.z) - stretched.z;
     const double radius = std::sqrt(std::max(0.0, 1 - z * z));
-    const Vec3 h = Vec3{radius * std::cos(phi), radius * std::sin(phi), z} + stretched;
-    return normalize({alpha_ * h.x, alpha_ * h.y, std::max(0.0, h.z)});
+    const Vec3 h = Vec3{radius * phi.cosine, radius * phi.sine, z} + stretched;
+    return unit({alpha_ * h.x, alpha_ * h.y, std::max(0.0, h.z)});
   }
 
  private:
+  // As normalize(), for what is no longer than 2 and not so short that its square vanishes.
+  static Vec3 unit(const Vec3& v) { return v * (1 / length(v)); }
+
   double alpha_;
 };
 

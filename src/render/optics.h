@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -31,11 +32,10 @@ inline std::optional<Vec3> refract(const Vec3& d, const Vec3& n, double eta) {
 /// @param eta     index of refraction before the boundary over that behind it
 inline double fresnel_dielectric(double cos_in, double eta) {
   const double sin_squared = eta * eta * (1 - cos_in * cos_in);
-  if (sin_squared >= 1) return 1;
-  const double cos_out = std::sqrt(1 - sin_squared);
+  const double cos_out = std::sqrt(std::max(0.0, 1 - sin_squared));
   const double parallel = (cos_in - eta * cos_out) / (cos_in + eta * cos_out);
   const double perpendicular = (eta * cos_in - cos_out) / (eta * cos_in + cos_out);
-  return 0.5 * (parallel * parallel + perpendicular * perpendicular);
+  return sin_squared >= 1 ? 1 : 0.5 * (parallel * parallel + perpendicular * perpendicular);
 }
 
 /// What a conductor reflects (Schlick 1994), for one band.

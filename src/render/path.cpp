@@ -44,10 +44,11 @@ void PathIntegrator::radiance(std::span<const RayQuery> primary, std::span<const
     vertices_.clear();
     for (std::uint32_t i = 0; i < paths_.size(); ++i) {
       Rgb& received = light[paths_[i].slot];
-      if (meet(paths_[i], rays[i], hits[i], received)) vertices_.push_back({i, -rays[i].ray.direction});
+      if (meet(paths_[i], rays[i], hits[i], received)) vertices_.push_back(i);
     }
     draw(samples, bounce);
-    for (std::size_t i = 0; i < vertices_.size(); ++i) scatter(i, hits[vertices_[i].path], bounce);
+    for (std::uint32_t i = 0; i < vertices_.size(); ++i) groups_.add(hits[vertices_[i]], i);
+    groups_.take_blocks([&](std::span<const std::uint32_t> block) { scatter(block, rays, hits, bounce); });
     trace_shadow_rays(light, context);
     if (next_paths_.empty()) return;
     // Hits are kept where there are fewer of them for now: to make them takes time.
@@ -87,7 +88,7 @@ bool PathIntegrator::meet(Path& path, const RayQuery& query, const Hit& hit, Rgb
 
 void PathIntegrator::draw(std::span<const SampleId> samples, int bounce) {
   samples_.clear();
-  for (const Vertex& vertex : vertices_) samples_.push_back(samples[paths_[vertex.path].slot]);
+  for (const std::uint32_t vertex : vertices_) samples_.push_back(samples[paths_[vertex].slot]);
   const auto draw_pairs = [&](BouncePair pair, std::vector<Sample2>& pairs) {
     pairs.resize(samples_.size());
     sampler_.draw(samples_, pair_of(bounce, pair), pairs);
@@ -98,15 +99,38 @@ void PathIntegrator::draw(std::span<const SampleId> samples, int bounce) {
   if (bounce >= certain_bounces && bounce + 1 < depth_) draw_pairs(roulette, draws_.roulette);
 }
 
-void PathIntegrator::scatter(std::size_t vertex, const Hit& hit, int bounce) {
-  const Vec3& to_viewer = vertices_[vertex].wo;
-  const Frame frame(dot(hit.normal, to_viewer) < 0 ? -hit.normal : hit.normal);
-  const Vec3 wo = frame.to_local(to_viewer);
-  if (!(wo.z > 0)) return;  // along the surface, which then sends nothing that way
-  const Bsdf bsdf = scene_.surface(hit.material).bsdf(wo, scene_.color(hit), scene_.boundary(hit));
-  const Bounce at{paths_[vertices_[vertex].path], hit, frame, bsdf, vertex};
-  if (bsdf.spreads()) connect(at);
-  go_on(at, bounce);
+// @param vertices  of one material, between the same media
+void PathIntegrator::scatter(std::span<const std::uint32_t> vertices, std::span<const RayQuery> rays,
+                             std::span<const Hit> hits, int bounce) {
+  block_.vertices = vertices;
+  const std::size_t count = vertices.size();
+  const auto hit = [&](std::size_t i) -> const Hit& { return hits[vertices_[vertices[i]]]; };
+  for (std::size_t i = 0; i < count; ++i) {
+    block_.normal.set(i, hit(i).normal);
+    block_.direction.set(i, rays[vertices_[vertices[i]]].ray.direction);
+    block_.color.set(i, scene_.color(hit(i)));
+  }
+  block_.frames.find(block_.normal, block_.direction, count, block_.wo);
+  const Surface& surface = scene_.surface(hit(0).material);
+  surface.scatter(block_.wo, block_.color, scene_.boundary(hit(0)), count, bsdf_);
+  // Along the surface, which then sends nothing that way, wo.z is not above 0.
+  if (bsdf_.spreads()) {
+    for (std::size_t i = 0; i < count; ++i) draw_light(i, hit(i));
+    block_.frames.to_local(block_.to_light, block_.wi);
+    bsdf_.evaluate(block_.wi, block_.to_viewer);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (block_.wo.z[i] > 0) connect(i, hit(i));
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    block_.choice[i] = draws_.choice[vertices[i]].v;
+    block_.place.set(i, draws_.direction[vertices[i]]);
+  }
+  bsdf_.sample(block_.choice, block_.place, block_.samples);
+  block_.frames.to_world(block_.samples.direction, block_.next_direction);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (block_.wo.z[i] > 0) go_on(i, hit(i), bounce);
+  }
 }
 
 double PathIntegrator::weight(double density, double other) const {
@@ -123,75 +147,84 @@ double PathIntegrator::weight_of_met_light(const Path& path, const LitLight& lig
   return weight(path.density, density * scene_.choice_probability(light, path.vertex));
 }
 
-void PathIntegrator::connect(const Bounce& at) {
-  const Hit& hit = at.hit;
-  const LightChoice chosen = scene_.choose_light(hit.point, draws_.choice[at.vertex].u);
+void PathIntegrator::draw_light(std::size_t i, const Hit& hit) {
+  DrawnLight& drawn = block_.lights[i];
+  const std::uint32_t vertex = block_.vertices[i];
+  const LightChoice chosen = scene_.choose_light(hit.point, draws_.choice[vertex].u);
+  drawn.light = nullptr;
   if (chosen.light == nullptr) return;
-  const Sample2 place = chosen.light->has_extent() ? draws_.light_place[at.vertex] : Sample2{};
-  const auto sample = chosen.light->sample(hit.point, place);
-  if (!sample) return;
-  const double distance = length(sample->to_light);
-  const Vec3 wi = at.frame.to_local(sample->to_light / distance);
-  const BsdfValue value = at.bsdf.evaluate(wi);
-  double share = 1 / chosen.probability;
-  if (sample->density > 0) {
+  const Sample2 place = chosen.light->has_extent() ? draws_.light_place[vertex] : Sample2{};
+  if (!chosen.light->draw(hit.point, place, drawn.sample)) return;
+  drawn.light = chosen.light;
+  drawn.probability = chosen.probability;
+  block_.to_light.set(i, drawn.sample.to_light);
+}
+
+void PathIntegrator::connect(std::size_t i, const Hit& hit) {
+  const auto& [light, probability, sample] = block_.lights[i];
+  if (light == nullptr) return;
+  const Path& path = paths_[vertices_[block_.vertices[i]]];
+  double share = 1 / probability;
+  if (sample.density > 0) {
     if (strategy_ == LightStrategy::bsdf) return;
-    if (strategy_ == LightStrategy::both) share *= weight(sample->density * chosen.probability, value.density);
+    if (strategy_ == LightStrategy::both) share *= weight(sample.density * probability, block_.to_viewer.density[i]);
   }
-  const Rgb sent = share * (at.path.throughput * value.light * sample->light);
+  const Rgb sent = share * (path.throughput * block_.to_viewer.light[i] * sample.light);
   if (!(largest(sent) > 0)) return;
-  double t_max = sample->t_max;
-  if (chosen.light->has_surface()) t_max -= scene_.light_margin(sample->cos) / distance;
-  if (scene_.is_blocked_by_light({hit.point, sample->to_light}, t_max, chosen.light)) return;
+  double t_max = sample.t_max;
+  if (light->has_surface()) t_max -= scene_.light_margin(sample.cos) / length(sample.to_light);
+  if (scene_.is_blocked_by_light({hit.point, sample.to_light}, t_max, light)) return;
   // Part by part, where they stay: a copy of what was just put together waits for all of its parts.
-  ShadowRays& to_light = shadow_rays_[static_cast<std::size_t>(chosen.light - scene_.lights().data())];
+  ShadowRays& to_light = shadow_rays_[static_cast<std::size_t>(light - scene_.lights().data())];
   RayQuery& query = to_light.queries.emplace_back();
   query.ray.origin = hit.point;
-  query.ray.direction = sample->to_light;
+  query.ray.direction = sample.to_light;
   query.t_max = t_max;
   query.kind = RayKind::shadow;
   query.from = &hit;
   ShadowRay& ray = to_light.rays.emplace_back();
   ray.light = sent;
-  ray.slot = at.path.slot;
-  ray.medium = wi.z > 0 ? hit.before : hit.after;
+  ray.slot = path.slot;
+  ray.medium = block_.wi.z[i] > 0 ? hit.before : hit.after;
 }
 
-void PathIntegrator::go_on(const Bounce& at, int bounce) {
-  const auto drawn = at.bsdf.sample(draws_.choice[at.vertex].v, draws_.direction[at.vertex]);
-  if (!drawn) return;
-  const Hit& hit = at.hit;
-  Rgb throughput = at.path.throughput * drawn->weight;
-  double growth = at.path.growth;
-  if (drawn->is_transmitted) {
+void PathIntegrator::go_on(std::size_t i, const Hit& hit, int bounce) {
+  const BsdfSamples& drawn = block_.samples;
+  const Path& from = paths_[vertices_[block_.vertices[i]]];
+  const bool is_transmitted = drawn.is_transmitted(i);
+  Rgb throughput = from.throughput * drawn.weight[i];
+  double growth = from.growth;
+  if (is_transmitted) {
     const double eta = scene_.ior(hit.before) / scene_.ior(hit.after);
     growth *= eta * eta;
   }
   // A path that carries little goes on seldom, and then carries more.
-  const double survival = largest(throughput) / growth;
   if (bounce + 1 == depth_) {
+    const double survival = largest(throughput) / growth;
     cut_ += {survival > 0 ? 1U : 0U, survival};
     return;
   }
-  if (bounce >= certain_bounces && survival < 1) {
-    if (!(draws_.roulette[at.vertex].u < survival)) return;
+  if (bounce >= certain_bounces) {
+    const double survival = std::min(1.0, largest(throughput) / growth);
+    if (!(draws_.roulette[block_.vertices[i]].u < survival)) return;
     throughput = throughput * (1 / survival);
   }
   if (!(largest(throughput) > 0)) return;
-  Path& path = next_paths_.emplace_back(at.path);
+  const double density = drawn.density[i];
+  Path& path = next_paths_.emplace_back(from);
   path.throughput = throughput;
   path.growth = growth;
   // Going straight through is as if there had been no surface.
-  if (!drawn->is_unbent) {
+  if (drawn.is_unbent[i] == 0) {
     path.vertex = hit.point;
-    path.density = drawn->density;
+    path.density = density;
     path.is_camera_ray = false;
-    path.is_sharp &= drawn->density == 0;
+    path.is_sharp &= density == 0;
   }
   RayQuery& query = next_queries_.emplace_back();
   query.ray.origin = hit.point;
-  query.ray.direction = at.frame.to_world(drawn->direction);
-  query.kind = drawn->density > 0 ? RayKind::diffuse : drawn->is_transmitted ? RayKind::refracted : RayKind::reflected;
+  query.ray.direction = block_.next_direction[i];
+  query.kind = density > 0 ? RayKind::diffuse : is_transmitted ? RayKind::refracted : RayKind::reflected;
   query.from = &hit;
 }
 

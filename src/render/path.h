@@ -1,12 +1,14 @@
 #pragma once
 
+#include <array>
 #include <utility>
 #include <vector>
 
+#include "render/frame_block.h"
 #include "render/integrator.h"
 #include "render/lit_scene.h"
 #include "render/passed_boundaries.h"
-#include "render/sphere_sampling.h"
+#include "render/vertex_groups.h"
 
 namespace tenon {
 
@@ -56,29 +58,39 @@ class PathIntegrator final : public Integrator {
     std::vector<RayQuery> queries;
     std::vector<ShadowRay> rays;
   };
-  /// A surface that may send light on along a path.
-  struct Vertex {
-    std::uint32_t path = 0;  // into paths_
-    Vec3 wo;                 // where the light goes
+  /// A light that was drawn at a vertex; null: none sends light there.
+  struct DrawnLight {
+    const LitLight* light;
+    double probability;
+    LightSample sample;
   };
   /// What is drawn for the vertices of one bounce, each as long as vertices_, or empty where nothing asks for it.
   struct Draws {
     std::vector<Sample2> choice, light_place, direction, roulette;
   };
-  /// What a bounce is about.
-  struct Bounce {
-    const Path& path;
-    const Hit& hit;
-    const Frame& frame;
-    const Bsdf& bsdf;
-    std::size_t vertex;  // into vertices_
+  /// Vertices of one group, and what becomes of them.
+  struct Block {
+    std::span<const std::uint32_t> vertices;
+    Vec3Block normal, direction;  // of the rays that met them
+    RgbBlock color;
+    FrameBlock frames;
+    Vec3Block wo;
+    std::array<DrawnLight, block_size> lights;
+    Vec3Block to_light, wi;
+    BsdfValues to_viewer;  // of the light from there
+    NumberBlock choice;
+    Sample2Block place;
+    BsdfSamples samples;
+    Vec3Block next_direction;
   };
 
   bool meet(Path& path, const RayQuery& query, const Hit& hit, Rgb& light) const;
   void draw(std::span<const SampleId> samples, int bounce);
-  void scatter(std::size_t vertex, const Hit& hit, int bounce);
-  void connect(const Bounce& at);
-  void go_on(const Bounce& at, int bounce);
+  void scatter(std::span<const std::uint32_t> vertices, std::span<const RayQuery> rays, std::span<const Hit> hits,
+               int bounce);
+  void draw_light(std::size_t i, const Hit& hit);
+  void connect(std::size_t i, const Hit& hit);
+  void go_on(std::size_t i, const Hit& hit, int bounce);
   double weight(double density, double other) const;
   double weight_of_met_light(const Path& path, const LitLight& light, double density) const;
   void trace_shadow_rays(std::span<Rgb> light, TraceContext& context);
@@ -93,9 +105,12 @@ class PathIntegrator final : public Integrator {
   std::vector<Path> paths_, next_paths_;
   std::vector<RayQuery> queries_, next_queries_;
   std::vector<Hit> hits_, next_hits_;
-  std::vector<Vertex> vertices_;
-  std::vector<SampleId> samples_;  // of the vertices
+  std::vector<std::uint32_t> vertices_;  // surfaces that may send light on along a path, which is in paths_
+  std::vector<SampleId> samples_;        // of the vertices
   Draws draws_;
+  VertexGroups groups_;
+  Block block_;
+  Bsdf bsdf_;
   std::vector<ShadowRays> shadow_rays_;  // by light
   std::vector<std::uint8_t> occluded_;
   PassedBoundaries passed_;

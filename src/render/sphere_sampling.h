@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 
+#include "math/quarter_turns.h"
 #include "render/sampler.h"
 #include "tenon/math/vec3.h"
 
@@ -27,8 +27,9 @@ struct Frame {
 
 /// A direction of the upper hemisphere (z > 0) with density cos / pi, by Malley's method.
 inline Vec3 cosine_hemisphere(const Sample2& sample) {
-  const double radius = std::sqrt(sample.u), angle = 2 * std::numbers::pi * sample.v;
-  return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1 - sample.u)};
+  const double radius = std::sqrt(sample.u);
+  const SineCosine angle = quarter_turn_sine_cosine(4 * sample.v);
+  return {radius * angle.cosine, radius * angle.sine, std::sqrt(1 - sample.u)};
 }
 
 }  // namespace tenon

@@ -30,17 +30,74 @@ Rgb grey(double value) {
   return {value, value, value};
 }
 
+}  // namespace
+
+/// What is known of the points of a block.
+struct Surface::Points {
+  const Vec3Block& wo;
+  const RgbBlock& color;
+  std::size_t size;  // of the block, in whole vectors
+};
+
+namespace {
+
+NumberBlock same(double value) {
+  NumberBlock block;
+  block.fill(value);
+  return block;
+}
+
+void add_diffuse(const RgbBlock& color, const NumberBlock& share, Bsdf& bsdf) {
+  Lobe& lobe = bsdf.add(Lobe::Kind::diffuse);
+  for (std::size_t i = 0; i < bsdf.size(); ++i) {
+    lobe.weight.set(i, share[i] * color[i]);
+    lobe.importance[i] = share[i] * largest(color[i]);
+  }
+}
+
+void add_grey(Lobe& lobe, double weight, std::size_t size) {
+  for (std::size_t i = 0; i < size; ++i) {
+    lobe.weight.set(i, grey(weight));
+    lobe.importance[i] = weight;
+  }
+}
+
 // What single scattering loses comes back with it, in its own directions (Turquin, "Practical multiple scattering
 // compensation for microfacet models", 2019).
-void add_conductor(Bsdf& bsdf, double cos, double alpha, const Rgb& f0, double share, const AlbedoTable* table) {
+// @param f0     what it reflects straight on
+// @param table  of alpha, unless that is 0
+void add_conductor(const Vec3Block& wo, const RgbBlock& f0, const NumberBlock& share, double alpha,
+                   const AlbedoTable* table, Bsdf& bsdf) {
   if (alpha == 0) {
-    const Rgb reflected{fresnel_schlick(cos, f0.r), fresnel_schlick(cos, f0.g), fresnel_schlick(cos, f0.b)};
-    bsdf.add(Lobe::Kind::mirror, share * reflected, share * largest(reflected));
+    Lobe& lobe = bsdf.add(Lobe::Kind::mirror);
+    for (std::size_t i = 0; i < bsdf.size(); ++i) {
+      const double cos = wo.z[i];
+      const Rgb reflected{fresnel_schlick(cos, f0.r[i]), fresnel_schlick(cos, f0.g[i]), fresnel_schlick(cos, f0.b[i])};
+      lobe.weight.set(i, share[i] * reflected);
+      lobe.importance[i] = share[i] * largest(reflected);
+    }
     return;
   }
-  const double lost_over_kept = 1 / (*table)(cos)-1;
-  const Rgb weight = share * (grey(1) + lost_over_kept * f0);
-  if (Lobe* rough = bsdf.add(Lobe::Kind::conductor, weight, share * largest(f0), alpha)) rough->f0 = f0;
+  NumberBlock kept;
+  table->find(wo.z, bsdf.size(), kept);
+  Lobe& lobe = bsdf.add(Lobe::Kind::conductor, alpha);
+  for (std::size_t i = 0; i < bsdf.size(); ++i) {
+    const double lost_over_kept = 1 / kept[i] - 1;
+    lobe.weight.set(i, share[i] * (grey(1) + lost_over_kept * f0[i]));
+    lobe.importance[i] = share[i] * largest(f0[i]);
+    lobe.color.set(i, f0[i]);
+  }
+}
+
+// @param albedo  what of the light it reflects
+void add_gloss(const Vec3Block& wo, const NumberBlock& share, const NumberBlock& albedo, double alpha, double eta,
+               Bsdf& bsdf) {
+  Lobe& lobe = bsdf.add(alpha == 0 ? Lobe::Kind::mirror : Lobe::Kind::gloss, alpha);
+  lobe.eta = eta;
+  for (std::size_t i = 0; i < bsdf.size(); ++i) {
+    lobe.weight.set(i, grey(alpha == 0 ? share[i] * fresnel_dielectric(wo.z[i], eta) : share[i]));
+    lobe.importance[i] = share[i] * albedo[i];
+  }
 }
 
 }  // namespace
@@ -62,36 +119,38 @@ Surface::Surface(const Material& material, AlbedoTables& tables)
   if (has_conductor && alpha_ > 0) conductor_ = &tables.get(ScatteredPart::reflected_by_perfect_mirrors, alpha_);
 }
 
-Bsdf Surface::bsdf(const Vec3& wo, const Rgb& color, const Boundary& boundary) const {
-  Bsdf bsdf(wo);
+void Surface::scatter(const Vec3Block& wo, const RgbBlock& color, const Boundary& boundary, std::size_t count,
+                      Bsdf& bsdf) const {
+  bsdf.start(wo, count);
+  add_lobes({wo, color, bsdf.size()}, boundary, bsdf);
+  bsdf.complete();
+}
+
+void Surface::add_lobes(const Points& at, const Boundary& boundary, Bsdf& bsdf) const {
   switch (model_) {
     case MaterialModel::lambert:
-      bsdf.add(Lobe::Kind::diffuse, color, 1);
-      break;
+      return add_diffuse(at.color, same(1), bsdf);
     case MaterialModel::phong:
-      bsdf.add(Lobe::Kind::diffuse, kd_ * color, kd_ * largest(color));
-      if (ks_ > 0) add_conductor(bsdf, wo.z, alpha_, {1, 1, 1}, ks_, conductor_);
-      break;
+      add_diffuse(at.color, same(kd_), bsdf);
+      if (ks_ > 0) add_conductor(at.wo, {same(1), same(1), same(1)}, same(ks_), alpha_, conductor_, bsdf);
+      return;
     case MaterialModel::whitted:
-      bsdf.add(Lobe::Kind::diffuse, kd_ * color, kd_ * largest(color));
-      bsdf.add(Lobe::Kind::mirror, grey(ks_), ks_);
-      if (boundary.is_opaque_behind) break;
-      if (Lobe* through = bsdf.add(Lobe::Kind::refraction, grey(kt_), kt_)) {
-        through->eta = boundary.ior_before / boundary.ior_behind;
-        through->is_window = true;
+      add_diffuse(at.color, same(kd_), bsdf);
+      if (ks_ > 0) add_grey(bsdf.add(Lobe::Kind::mirror), ks_, at.size);
+      if (kt_ > 0 && !boundary.is_opaque_behind) {
+        Lobe& through = bsdf.add(Lobe::Kind::refraction);
+        add_grey(through, kt_, at.size);
+        through.eta = boundary.ior_before / boundary.ior_behind;
+        through.is_window = true;
       }
-      break;
+      return;
     case MaterialModel::conductor:
-      add_conductor(bsdf, wo.z, alpha_, color, 1, conductor_);
-      break;
+      return add_conductor(at.wo, at.color, same(1), alpha_, conductor_, bsdf);
     case MaterialModel::dielectric:
-      add_dielectric(bsdf, wo.z, color, 1, boundary);
-      break;
+      return add_dielectric(at, same(1), boundary, bsdf);
     case MaterialModel::principled:
-      add_principled(bsdf, wo.z, color, boundary);
-      break;
+      return add_principled(at, boundary, bsdf);
   }
-  return bsdf;
 }
 
 Rgb Surface::unbent(const Rgb& color, const Boundary& boundary) const {
@@ -101,55 +160,65 @@ Rgb Surface::unbent(const Rgb& color, const Boundary& boundary) const {
   return {};
 }
 
-double Surface::reflected_by_dielectric(double cos, double alpha, double eta) const {
-  if (alpha == 0) return fresnel_dielectric(cos, eta);
-  return tables_.get(ScatteredPart::reflected_by_dielectric, alpha, eta)(cos);
+// The share of the light that a dielectric's surface returns, or scatters in whatever direction.
+void Surface::find_albedo(ScatteredPart part, const Points& at, double alpha, double eta, NumberBlock& albedo) const {
+  if (alpha > 0) return tables_.get(part, alpha, eta).find(at.wo.z, at.size, albedo);
+  for (std::size_t i = 0; i < at.size; ++i) albedo[i] = fresnel_dielectric(at.wo.z[i], eta);
 }
 
-void Surface::add_dielectric(Bsdf& bsdf, double cos, const Rgb& tint, double share, const Boundary& boundary) const {
+void Surface::add_dielectric(const Points& at, const NumberBlock& share, const Boundary& boundary, Bsdf& bsdf) const {
+  NumberBlock albedo;
   if (boundary.is_opaque_behind) {
     const double eta = boundary.ior_before / ior_;
-    add_gloss(bsdf, cos, alpha_, eta, share, reflected_by_dielectric(cos, alpha_, eta));
-    return;
+    find_albedo(ScatteredPart::reflected_by_dielectric, at, alpha_, eta, albedo);
+    return add_gloss(at.wo, share, albedo, alpha_, eta, bsdf);
   }
   const double eta = boundary.ior_before / boundary.ior_behind;
   // Between media of one index there is nothing to reflect at or to bend light.
   const bool smooth = alpha_ == 0 || eta == 1;
-  Lobe* both = bsdf.add(smooth ? Lobe::Kind::dielectric : Lobe::Kind::rough_dielectric, grey(share), share, alpha_);
-  if (both == nullptr) return;
-  both->tint = tint;
-  both->eta = eta;
-  both->is_window = model_ == MaterialModel::dielectric;
-  if (!smooth) both->scale = 1 / tables_.get(ScatteredPart::all_of_dielectric, alpha_, eta)(cos);
-}
-
-void Surface::add_gloss(Bsdf& bsdf, double cos, double alpha, double eta, double share, double albedo) const {
-  if (alpha == 0) {
-    bsdf.add(Lobe::Kind::mirror, grey(share * fresnel_dielectric(cos, eta)), share * albedo);
-    return;
+  Lobe& both = bsdf.add(smooth ? Lobe::Kind::dielectric : Lobe::Kind::rough_dielectric, alpha_);
+  both.eta = eta;
+  both.is_window = model_ == MaterialModel::dielectric;
+  if (smooth) {
+    albedo = same(1);
+  } else {
+    find_albedo(ScatteredPart::all_of_dielectric, at, alpha_, eta, albedo);
   }
-  if (Lobe* gloss = bsdf.add(Lobe::Kind::gloss, grey(share), share * albedo, alpha)) gloss->eta = eta;
+  for (std::size_t i = 0; i < at.size; ++i) {
+    both.weight.set(i, grey(share[i] / albedo[i]));
+    both.importance[i] = share[i];
+    both.color.set(i, at.color[i]);
+  }
 }
 
 // Each layer passes on what it does not reflect (albedo scaling).
-void Surface::add_principled(Bsdf& bsdf, double cos, const Rgb& color, const Boundary& boundary) const {
-  double rest = 1;
+void Surface::add_principled(const Points& at, const Boundary& boundary, Bsdf& bsdf) const {
+  NumberBlock rest = same(1), albedo, share;
+  const auto scale = [&at](const NumberBlock& from, double by, NumberBlock& to) {
+    for (std::size_t i = 0; i < at.size; ++i) to[i] = by * from[i];
+  };
   if (coat_ > 0) {
     const double eta = boundary.ior_before / coat_ior;
-    const double albedo = reflected_by_dielectric(cos, coat_alpha_, eta);
-    add_gloss(bsdf, cos, coat_alpha_, eta, coat_, albedo);
-    rest -= coat_ * albedo;
+    find_albedo(ScatteredPart::reflected_by_dielectric, at, coat_alpha_, eta, albedo);
+    add_gloss(at.wo, same(coat_), albedo, coat_alpha_, eta, bsdf);
+    for (std::size_t i = 0; i < at.size; ++i) rest[i] -= coat_ * albedo[i];
   }
-  if (metallic_ > 0) add_conductor(bsdf, cos, alpha_, color, rest * metallic_, conductor_);
-  rest *= 1 - metallic_;
-  if (rest * transmission_ > 0) add_dielectric(bsdf, cos, color, rest * transmission_, boundary);
-  rest *= 1 - transmission_;
-  if (!(rest > 0)) return;
+  if (metallic_ > 0) {
+    scale(rest, metallic_, share);
+    add_conductor(at.wo, at.color, share, alpha_, conductor_, bsdf);
+  }
+  scale(rest, 1 - metallic_, rest);
+  if ((1 - metallic_) * transmission_ > 0) {
+    scale(rest, transmission_, share);
+    add_dielectric(at, share, boundary, bsdf);
+  }
+  scale(rest, 1 - transmission_, rest);
+  if (!((1 - metallic_) * (1 - transmission_) > 0)) return;
   const double eta = boundary.ior_before / ior_;
-  const double albedo = reflected_by_dielectric(cos, alpha_, eta);
-  add_gloss(bsdf, cos, alpha_, eta, rest, albedo);
-  const double below = rest * (1 - albedo);
-  bsdf.add(Lobe::Kind::diffuse, below * color, below * largest(color));
+  find_albedo(ScatteredPart::reflected_by_dielectric, at, alpha_, eta, albedo);
+  add_gloss(at.wo, rest, albedo, alpha_, eta, bsdf);
+  for (std::size_t i = 0; i < at.size; ++i) rest[i] *= 1 - albedo[i];
+  add_diffuse(at.color, rest, bsdf);
 }
 
 }  // namespace tenon

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "render/albedo_table.h"
 #include "render/bsdf.h"
 #include "tenon/csg/hit.h"
 #include "tenon/scene/material.h"
@@ -18,19 +19,23 @@ class Surface {
   /// @param tables  outlive the surface
   Surface(const Material& material, AlbedoTables& tables);
 
-  /// How it scatters light that leaves along wo.
-  /// @param wo     local: z is the normal on the viewer's side
-  /// @param color  of the material at this point, linear
-  Bsdf bsdf(const Vec3& wo, const Rgb& color, const Boundary& boundary) const;
+  /// How it scatters light that leaves along wo, at each point of a block.
+  /// @param wo        local: z is the normal on the viewer's side; outlives what is done with the BSDF
+  /// @param color     of the material at these points, linear
+  /// @param boundary  of all of them
+  /// @param count     of points
+  void scatter(const Vec3Block& wo, const RgbBlock& color, const Boundary& boundary, std::size_t count,
+               Bsdf& bsdf) const;
 
   /// The share of light that goes straight on through the boundary, as if there were none; 0 where it is bent.
   Rgb unbent(const Rgb& color, const Boundary& boundary) const;
 
  private:
-  void add_dielectric(Bsdf& bsdf, double cos, const Rgb& tint, double share, const Boundary& boundary) const;
-  void add_gloss(Bsdf& bsdf, double cos, double alpha, double eta, double share, double albedo) const;
-  double reflected_by_dielectric(double cos, double alpha, double eta) const;
-  void add_principled(Bsdf& bsdf, double cos, const Rgb& color, const Boundary& boundary) const;
+  struct Points;
+  void add_lobes(const Points& at, const Boundary& boundary, Bsdf& bsdf) const;
+  void add_dielectric(const Points& at, const NumberBlock& share, const Boundary& boundary, Bsdf& bsdf) const;
+  void add_principled(const Points& at, const Boundary& boundary, Bsdf& bsdf) const;
+  void find_albedo(ScatteredPart part, const Points& at, double alpha, double eta, NumberBlock& albedo) const;
 
   MaterialModel model_;
   double kd_, ks_, kt_;

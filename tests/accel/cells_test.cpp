@@ -1,9 +1,8 @@
-#include <hwy/targets.h>
-
 #include "accel/battery.h"
 #include "accel/cells/cell_tree.h"
 #include "csg/expression.h"
 #include "csg/minimum_enclosure.h"
+#include "support/instruction_sets.h"
 
 namespace tenon {
 namespace {
@@ -187,20 +186,6 @@ TEST(Cells, StreamsSayWhatSingleRaysSay) {
     SCOPED_TRACE(scene.name);
     expect_streams_say_what_single_rays_say(scene.build(), 200);
   }
-}
-
-// The kernels are compiled for several sets of instructions; here each that this machine has is chosen once.
-template <class Body>
-void for_each_instruction_set(const Body& body) {
-  for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
-    const std::int64_t target = left & -left;
-    SCOPED_TRACE(hwy::TargetName(target));
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().DeInit();
-    body();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().DeInit();
 }
 
 TEST(Cells, EveryInstructionSetSaysTheSame) {

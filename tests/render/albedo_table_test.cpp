@@ -81,8 +81,12 @@ TEST(AlbedoTable, IsTheIntegralOverAllDirections) {
         // edge that the grid only finds to its step.
         const bool has_edge = alpha == 1 || (part != ScatteredPart::reflected_by_perfect_mirrors && eta > 1);
         const double near = has_edge ? 1e-3 : 1e-4;
-        for (const double cos : {0.15, 0.4, 0.77, 1.0}) {
-          EXPECT_NEAR(table(cos), (Reference{alpha, eta}.albedo(part, cos)), near)
+        const NumberBlock cosines{0.15, 0.4, 0.77, 1.0};
+        NumberBlock albedo;
+        table.find(cosines, whole_vectors(4), albedo);
+        for (std::size_t i = 0; i < 4; ++i) {
+          const double cos = cosines[i];
+          EXPECT_NEAR(albedo[i], (Reference{alpha, eta}.albedo(part, cos)), near)
               << "part " << static_cast<int>(part) << ", eta " << eta << ", alpha " << alpha << ", cos " << cos;
         }
       }

@@ -15,8 +15,9 @@ double irradiance(const LitLight& light, const Vec3& point, const Vec3& normal) 
   constexpr std::uint32_t n = 1 << 14;
   double sum = 0;
   for (std::uint32_t i = 0; i < n; ++i) {
-    const auto sample = light.sample(point, Sampler(1)({0, 0, i}, 0));
-    if (sample) sum += sample->light.g * std::max(0.0, dot(normalize(sample->to_light), normal));
+    LightSample sample;
+    if (light.draw(point, Sampler(1)({0, 0, i}, 0), sample))
+      sum += sample.light.g * std::max(0.0, dot(normalize(sample.to_light), normal));
   }
   return sum / n;
 }
@@ -24,13 +25,13 @@ double irradiance(const LitLight& light, const Vec3& point, const Vec3& normal) 
 // A direction that is drawn and one that is met have one density.
 void expect_one_density(const LitLight& light, const Vec3& point) {
   for (std::uint32_t i = 0; i < 100; ++i) {
-    const auto sample = light.sample(point, Sampler(2)({0, 0, i}, 0));
-    ASSERT_TRUE(sample);
-    const auto met = light.intersect({point, normalize(sample->to_light)});
+    LightSample sample;
+    ASSERT_TRUE(light.draw(point, Sampler(2)({0, 0, i}, 0), sample));
+    const auto met = light.intersect({point, normalize(sample.to_light)});
     ASSERT_TRUE(met) << i;
-    EXPECT_NEAR(met->t, length(sample->to_light), 1e-7 * met->t);
-    EXPECT_NEAR(met->density, sample->density, 1e-6 * sample->density);
-    EXPECT_NEAR(met->cos, sample->cos, 1e-5);
+    EXPECT_NEAR(met->t, length(sample.to_light), 1e-7 * met->t);
+    EXPECT_NEAR(met->density, sample.density, 1e-6 * sample.density);
+    EXPECT_NEAR(met->cos, sample.cos, 1e-5);
   }
 }
 
@@ -46,7 +47,8 @@ TEST(LitLight, SphereSendsTheLightOfItsSolidAngle) {
   const double d2 = 30, cos = 5 / std::sqrt(d2);
   EXPECT_NEAR(irradiance(light, point, normal), pi * 3 * 1.5 * 1.5 / d2 * cos, 2e-4);
   expect_one_density(light, point);
-  EXPECT_FALSE(light.sample({1, 2, 4.5}, {0.5, 0.5})) << "a point inside sees nothing of it";
+  LightSample none;
+  EXPECT_FALSE(light.draw({1, 2, 4.5}, {0.5, 0.5}, none)) << "a point inside sees nothing of it";
 }
 
 TEST(LitLight, RectangleSendsTheLightOfItsContour) {
@@ -67,7 +69,8 @@ TEST(LitLight, RectangleSendsTheLightOfItsContour) {
   }
   EXPECT_NEAR(irradiance(light, point, normal), 2 * std::fabs(sum.z) / 2, 5e-4);
   expect_one_density(light, point);
-  EXPECT_FALSE(light.sample({0, 0, 3}, {0.5, 0.5})) << "from behind it is not there";
+  LightSample none;
+  EXPECT_FALSE(light.draw({0, 0, 3}, {0.5, 0.5}, none)) << "from behind it is not there";
   EXPECT_FALSE(light.intersect({{0.5, 0, 3}, {0, 0, -1}}));
 }
 

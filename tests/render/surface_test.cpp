@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <string>
 #include <vector>
+
+#include "render/frame_block.h"
+#include "support/instruction_sets.h"
 
 namespace tenon {
 namespace {
@@ -56,9 +60,47 @@ Vec3 direction(double degrees) {
   return {std::sin(degrees * pi / 180), 0, std::cos(degrees * pi / 180)};
 }
 
-Bsdf bsdf_of(const Case& c, const Vec3& wo, AlbedoTables& tables) {
-  return Surface(c.material, tables).bsdf(wo, {1, 1, 1}, {c.ior_before, c.ior_behind, false});
-}
+// The BSDF of one point.
+class PointBsdf {
+ public:
+  PointBsdf(const Case& c, const Vec3& wo, AlbedoTables& tables) {
+    wo_.set(0, wo);
+    RgbBlock white;
+    white.set(0, {1, 1, 1});
+    Surface(c.material, tables).scatter(wo_, white, {c.ior_before, c.ior_behind, false}, 1, bsdf_);
+  }
+
+  struct Value {
+    Rgb light;
+    double density;
+  };
+  Value evaluate(const Vec3& wi) {
+    wi_.set(0, wi);
+    bsdf_.evaluate(wi_, values_);
+    return {values_.light[0], values_.density[0]};
+  }
+
+  struct Drawn {
+    Vec3 direction;
+    Rgb weight;
+    double density;
+  };
+  // A weight of 0: the light is lost.
+  Drawn sample(double choice, const Sample2& place) {
+    choice_[0] = choice;
+    place_.set(0, place);
+    bsdf_.sample(choice_, place_, samples_);
+    return {samples_.direction[0], samples_.weight[0], samples_.density[0]};
+  }
+
+ private:
+  Vec3Block wo_, wi_;
+  Bsdf bsdf_;
+  BsdfValues values_;
+  NumberBlock choice_{};
+  Sample2Block place_;
+  BsdfSamples samples_;
+};
 
 // Light of radiance 1 from everywhere is radiance n^2 within a medium of index n; over the n^2 of the viewer's side all
 // of it must come back. The mean over 2^18 points of a sequence that fills the square evenly.
@@ -66,16 +108,15 @@ TEST(Surface, ReturnsAllLightOfAFurnace) {
   AlbedoTables tables;
   for (const Case& c : cases()) {
     for (const double degrees : {0.0, 30.0, 60.0, 80.0}) {
-      const Bsdf bsdf = bsdf_of(c, direction(degrees), tables);
+      PointBsdf bsdf(c, direction(degrees), tables);
       constexpr int n = 1 << 16;
       const Sampler sampler(11);
       double sum = 0, squares = 0;
       for (int i = 0; i < n; ++i) {
         const auto sample = bsdf.sample(sampler({i, 0, 0}, 0).u, sampler({i, 0, 0}, 1));
-        if (!sample) continue;
-        const double n2 = sample->is_transmitted ? std::pow(c.ior_behind / c.ior_before, 2) : 1;
-        sum += sample->weight.g * n2;
-        squares += sample->weight.g * n2 * sample->weight.g * n2;
+        const double n2 = sample.direction.z < 0 ? std::pow(c.ior_behind / c.ior_before, 2) : 1;
+        sum += sample.weight.g * n2;
+        squares += sample.weight.g * n2 * sample.weight.g * n2;
       }
       const double deviation = std::sqrt(std::max(0.0, squares / n - sum / n * (sum / n)) / n);
       EXPECT_NEAR(sum / n, 1, 6 * deviation + 2e-4) << c.name << " at " << degrees << " degrees";
@@ -89,14 +130,14 @@ TEST(Surface, ReturnsAllLightByItsValuesToFourDigits) {
   AlbedoTables tables;
   for (const Case& c : cases()) {
     for (const double degrees : {10.0, 55.0}) {
-      const Bsdf bsdf = bsdf_of(c, direction(degrees), tables);
+      PointBsdf bsdf(c, direction(degrees), tables);
       constexpr int n = 500;
       double light = 0, density = 0;
       for (int i = 0; i < 2 * n; ++i) {
         const double theta = pi / 2 * (i + 0.5) / n, z = std::cos(theta), r = std::sin(theta);
         for (int j = 0; j < n; ++j) {
           const double phi = pi * (j + 0.5) / n;
-          const BsdfValue value = bsdf.evaluate({r * std::cos(phi), r * std::sin(phi), z});
+          const PointBsdf::Value value = bsdf.evaluate({r * std::cos(phi), r * std::sin(phi), z});
           light += r * value.light.g * (z < 0 ? std::pow(c.ior_behind / c.ior_before, 2) : 1);
           density += r * value.density;
         }
@@ -121,7 +162,7 @@ TEST(Surface, DirectionsAreDrawnWithTheirDensity) {
   for (const Case& c : cases()) {
     if (c.ior_before == 1.33) continue;  // light that is hardly bent wants a grid too fine to sum over
     for (const double degrees : {5.0, 50.0, 80.0}) {
-      const Bsdf bsdf = bsdf_of(c, direction(degrees), tables);
+      PointBsdf bsdf(c, direction(degrees), tables);
       std::vector<double> expected(rows * columns + 1), drawn(rows * columns + 1);
       double rest = draws;
       for (int i = 0; i < rows * fine; ++i) {
@@ -141,11 +182,11 @@ TEST(Surface, DirectionsAreDrawnWithTheirDensity) {
         const SampleId id{static_cast<int>(i), static_cast<int>(pixel), 0};
         const Sampler sampler(5);
         const auto sample = bsdf.sample(sampler(id, 0).u, sampler(id, 1));
-        if (!sample || !(sample->density > 0)) {
+        if (!(sample.density > 0)) {
           ++drawn.back();
           continue;
         }
-        const Vec3& d = sample->direction;
+        const Vec3& d = sample.direction;
         double phi = std::atan2(d.y, d.x);
         if (phi < 0) phi += 2 * pi;
         const int row = std::min(rows - 1, static_cast<int>(std::acos(d.z) / pi * rows));
@@ -173,6 +214,80 @@ TEST(Surface, DirectionsAreDrawnWithTheirDensity) {
       const double deviations = (std::cbrt(statistic / freedom) - (1 - k)) / std::sqrt(k);
       EXPECT_LT(deviations, 5.5) << c.name << " at " << degrees << " degrees, statistic " << statistic << " of "
                                  << boxes << " boxes";
+    }
+  }
+}
+
+Vec3 direction(const Sample2& place) {
+  const double z = 2 * place.u - 1, r = std::sqrt(1 - z * z);
+  return {r * std::cos(2 * pi * place.v), r * std::sin(2 * pi * place.v), z};
+}
+
+// Numbers of all points of a block, seen from everywhere, lit from everywhere.
+std::vector<double> scattered(const Case& c, AlbedoTables& tables) {
+  const Sampler sampler(7);
+  Vec3Block normal, seen, wo, light, wi, world;
+  RgbBlock color;
+  NumberBlock choice;
+  Sample2Block place;
+  for (std::size_t i = 0; i < block_size; ++i) {
+    const SampleId id{static_cast<int>(i), 0, 0};
+    normal.set(i, direction(sampler(id, 0)));
+    seen.set(i, direction(sampler(id, 1)));
+    light.set(i, direction(sampler(id, 2)));
+    color.set(i, {sampler(id, 3).u, sampler(id, 3).v, sampler(id, 4).u});
+    choice[i] = sampler(id, 4).v;
+    place.set(i, sampler(id, 5));
+  }
+  FrameBlock frames;
+  frames.find(normal, seen, block_size, wo);
+  frames.to_local(light, wi);
+  Bsdf bsdf;
+  Surface(c.material, tables).scatter(wo, color, {c.ior_before, c.ior_behind, false}, block_size, bsdf);
+  BsdfValues values;
+  bsdf.evaluate(wi, values);
+  BsdfSamples samples;
+  bsdf.sample(choice, place, samples);
+  frames.to_world(samples.direction, world);
+  std::vector<double> numbers;
+  for (const NumberBlock* block : {&values.light.r, &values.light.g, &values.light.b, &values.density, &world.x,
+                                   &world.y, &world.z, &samples.weight.r, &samples.weight.g, &samples.density}) {
+    numbers.insert(numbers.end(), block->begin(), block->end());
+  }
+  return numbers;
+}
+
+TEST(Surface, EveryInstructionSetScattersToTheSameBits) {
+  AlbedoTables tables;
+  for (const Case& c : cases()) {
+    const std::vector<double> expected = scattered(c, tables);
+    EXPECT_TRUE(std::ranges::any_of(expected, [](double number) { return number > 0; }));
+    for_each_instruction_set([&] { EXPECT_EQ(scattered(c, tables), expected) << c.name; });
+  }
+}
+
+// However many points a block has, each is scattered as by itself.
+TEST(Surface, PointsOfABlockKnowNothingOfEachOther) {
+  AlbedoTables tables;
+  const Sampler sampler(9);
+  for (const Case& c : cases()) {
+    for (const std::size_t count : {1U, 7U, 8U, 13U, 64U}) {
+      Vec3Block wo, wi;
+      RgbBlock white;
+      for (std::size_t i = 0; i < count; ++i) {
+        wo.set(i, direction(5.0 + static_cast<double>(i)));
+        wi.set(i, direction(sampler({static_cast<int>(i), 0, 0}, 0)));
+        white.set(i, {1, 1, 1});
+      }
+      Bsdf bsdf;
+      Surface(c.material, tables).scatter(wo, white, {c.ior_before, c.ior_behind, false}, count, bsdf);
+      BsdfValues values;
+      bsdf.evaluate(wi, values);
+      for (std::size_t i = 0; i < count; ++i) {
+        const PointBsdf::Value alone = PointBsdf(c, wo[i], tables).evaluate(wi[i]);
+        EXPECT_EQ(values.light.g[i], alone.light.g) << c.name << ", " << i << " of " << count;
+        EXPECT_EQ(values.density[i], alone.density) << c.name << ", " << i << " of " << count;
+      }
     }
   }
 }
