@@ -59,7 +59,10 @@ void ViewArguments::add_to(CLI::App& command) {
       .add_option("--focus", focus,
                   "What is sharp through a lens: a distance from the camera, or a point; else what it looks at")
       ->type_name("D|X,Y,Z");
-  command.add_flag("--fit", fit, "Move the camera, without turning it, until the whole solid just fills the picture");
+  command.add_flag(
+      "--fit", fit,
+      "Move the camera, without turning it, until the whole solid fills the picture, with 2.5 % of its width "
+      "or height free on each side");
   command.add_flag("--ortho,--orthographic", orthographic,
                    "Parallel rays, covering what the camera would see at the point it looks at");
 }

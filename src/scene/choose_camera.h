@@ -14,7 +14,7 @@ namespace tenon {
 Camera choose_camera(const ViewRequest& request, const std::optional<Camera>& camera, const CsgTree& tree,
                      std::span<const SectionCut> cuts);
 
-/// Moves a camera, without turning it, to where the solid just fills the picture, and looks at its middle.
+/// Moves a camera, without turning it, to where the solid fills the picture, and looks at its middle.
 /// @param filled  the share of the picture's width or height, whichever is filled first, that the solid takes
 Camera fit_camera(const Camera& camera, SolidExtent& extent, double aspect, double filled);
 

@@ -101,7 +101,7 @@ std::pair<double, double> project(const Camera& camera, double aspect, const Vec
   return {dot(v, right) / half, dot(v, up) / half * aspect};
 }
 
-TEST(FitCamera, TheSolidTouchesTheFrameAndStaysInside) {
+TEST(FitCamera, TheSolidFillsThePictureButForAMargin) {
   constexpr std::uint64_t seed = 74;
   SCOPED_TRACE("seed " + std::to_string(seed));
   Draw draw(seed);
@@ -129,11 +129,12 @@ TEST(FitCamera, TheSolidTouchesTheFrameAndStaysInside) {
       const auto [x, y] = project(scene.camera, aspect, corner);
       left = std::min(left, x), right = std::max(right, x), low = std::min(low, y), high = std::max(high, y);
     }
-    EXPECT_GE(std::min(left, low), -1);
-    EXPECT_LE(std::max(right, high), 1);
-    // One way it touches both edges, to within a pixel of a picture of 400.
+    // One way it comes as near to both edges as it may, to within a pixel of a picture of 400. What the extent does not
+    // know may reach a little further.
+    EXPECT_GE(std::min(left, low), -0.951);
+    EXPECT_LE(std::max(right, high), 0.951);
     const double wide = std::min(right, -left), tall = std::min(high, -low);
-    EXPECT_GT(std::max(wide, tall), 0.995) << "round " << round;
+    EXPECT_GT(std::max(wide, tall), 0.945) << "round " << round;
     EXPECT_NEAR(left + right, 0, 0.005);
     EXPECT_NEAR(low + high, 0, 0.005);
   }
@@ -150,8 +151,8 @@ TEST(FitCamera, KeepsDirectionAndAngle) {
   const Scene scene = compile(b.finish(b.sphere(1)), view, camera);
   EXPECT_EQ(scene.camera.fov, 25);
   EXPECT_NEAR(length(normalize(scene.camera.at - scene.camera.from) - Vec3{-1, 0, 0}), 0, 1e-12);
-  // A ball seen under an angle of 25 degrees up and down, where the picture is less wide: 3/4 of the slope.
-  const double slope = 0.75 * std::tan(12.5 * std::numbers::pi / 180);
+  // A ball seen under an angle of 25 degrees up and down, where the picture is less wide: 3/4 of the slope, less 5 %.
+  const double slope = 0.95 * 0.75 * std::tan(12.5 * std::numbers::pi / 180);
   EXPECT_NEAR(scene.camera.from.x, 1 / std::sin(std::atan(slope)), 0.05);
 }
 

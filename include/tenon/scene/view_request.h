@@ -16,7 +16,7 @@ struct ViewAngles {
 struct ViewRequest {
   std::optional<Camera> camera;      ///< none: the file's; where that has none either, one is chosen
   std::optional<ViewAngles> angles;  ///< look from there, at the whole solid
-  bool fit = false;  ///< move the camera, along its direction and across, until the solid fills the picture
+  bool fit = false;  ///< move the camera, along its direction and across, until the solid takes 95 % of the picture
   std::optional<double> aperture;   ///< of the camera's lens (Camera::aperture)
   std::optional<double> focus;      ///< Camera::focus
   std::optional<Vec3> focus_point;  ///< a point that is sharp, in place of `focus`
