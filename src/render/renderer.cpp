@@ -76,19 +76,21 @@ class FilmWork {
 
   DepthCut cut() const {
     DepthCut cut;
-    double throughput = 0, samples = 0;
+    double of_pixels = 0, pixels = 0;
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
       const double of_tile = cut_[i].of_paths.throughput, n = static_cast<double>(cut_[i].samples);
       cut.paths += cut_[i].of_paths.paths;
-      throughput += of_tile;
-      samples += n;
+      if (n == 0) continue;
+      const auto pixels_of_tile = static_cast<double>(tiles_[i].pixels());
+      of_pixels += pixels_of_tile * of_tile / n;
+      pixels += pixels_of_tile;
       // A path carries no more than all: the variance of their sum is no larger than the sum.
-      const double share = n > 0 ? (of_tile - 2 * std::sqrt(of_tile)) / n : 0;
+      const double share = (of_tile - 2 * std::sqrt(of_tile)) / n;
       if (share <= cut.largest_share) continue;
       cut.largest_share = share;
       cut.tile = tiles_[i];
     }
-    if (samples > 0) cut.share = throughput / samples;
+    if (pixels > 0) cut.share = of_pixels / pixels;
     return cut;
   }
 

@@ -258,6 +258,29 @@ TEST(Renderer, DepthCutsWhatPathsStillCarry) {
   EXPECT_FALSE(none.may_be_seen());
 }
 
+// A pixel counts as one, however many samples it needs. Half of the picture is sky, which needs few.
+TEST(Renderer, DepthCutsAShareOfThePictureNotOfTheSamples) {
+  Still still;
+  still.scene.camera.from = {0, 0, 0};
+  still.scene.camera.at = {1, 0, 0};
+  still.accelerator = AnalyticAccelerator({{AnalyticSlab{-2, -1}, MaterialId{0}, medium_opaque}});
+  Light lamp;
+  lamp.kind = LightKind::sphere;
+  lamp.position = {3, 0, 0.5};
+  lamp.radius = 0.4;
+  still.scene.lights = {lamp};
+  RenderOptions options = small();
+  options.integrator = IntegratorKind::path;
+  options.depth = 1;
+  options.samples = 64;
+  const double share = still.render(options).cut.share;
+  options.noise = 0.02;
+  const Rendering adaptive = still.render(options);
+  EXPECT_LT(adaptive.film.mean_samples(), 50);
+  EXPECT_GT(adaptive.film.mean_samples(), 20);
+  EXPECT_NEAR(adaptive.cut.share, share, 0.003);
+}
+
 TEST(Renderer, TransparentBackgroundIsNotThere) {
   Still still;
   still.scene.camera.at = {0, 0, 4};
