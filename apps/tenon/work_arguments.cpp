@@ -67,9 +67,9 @@ void WorkArguments::add_to(CLI::App& command) {
       ->check(CLI::Range(1U, most_samples).description("1 to " + std::to_string(most_samples)));
   command
       .add_option("--noise", noise,
-                  "Take no more samples of a tile of 16 x 16 pixels, but at least 16, once the mean over its pixels of "
-                  "(sR + sG + sB) / sqrt(R + G + B) is no more than this, s being standard errors (Dammertz 2009); "
-                  "0.02 is hardly seen")
+                  "Take no more samples of a tile of 16 x 16 pixels, but at least 16, once its noise is no more than "
+                  "this: (eR + eG + eB) / sqrt(R + G + B) on average, e being errors (Dammertz 2009), where single "
+                  "pixels that err far more count by their squares; 0.02 is hardly seen")
       ->type_name("TARGET")
       ->check(CLI::Range(1e-9, 1e9).description("over 0"));
   command
