@@ -38,12 +38,11 @@ class FilmWork {
       const PixelWindow tile = tiles_[i];
       const std::uint32_t taken = film.samples(tile.x0, tile.y0);
       reached_.push_back(first_ + taken);
-      settled_.push_back(is_settled(i));
+      settled_.push_back(0);
+      expected_.push_back(0);
       cut_.emplace_back();
-      if (control.progress != nullptr) {
-        control.progress->total += tile.pixels() * (end_ - first_);
-        control.progress->before += tile.pixels() * (settled_[i] ? end_ - first_ : taken);
-      }
+      look_ahead(i);
+      if (control.progress != nullptr) control.progress->before += tile.pixels() * taken;
     }
     if (control.progress == nullptr) return;
     control.progress->done = control.progress->before.load();
@@ -133,21 +132,30 @@ class FilmWork {
     cut_[i].of_paths += worker.take(tile, reached_[i], end, film_);
     cut_[i].samples += tile.pixels() * (end - reached_[i]);
     busy_seconds += thread_cpu_seconds() - begun;
-    std::uint64_t done = tile.pixels() * (end - reached_[i]);
+    const std::uint64_t done = tile.pixels() * (end - reached_[i]);
     reached_[i] = end;
-    settled_[i] = is_settled(i);
+    look_ahead(i);
     if (control_.progress == nullptr) return;
-    if (settled_[i]) done += tile.pixels() * (end_ - end);
     control_.progress->done += done;
     control_.progress->rays += worker.statistics().total().rays - rays_before;
   }
 
-  // Follows from the tile's own samples alone, so that parts of a picture agree, and so does work that is taken up
-  // again: tiles are only ever left at the end of a round.
-  bool is_settled(std::size_t i) const {
-    if (reached_[i] == end_) return true;
-    if (!(options_.noise > 0) || reached_[i] < least_samples_for_noise) return false;
-    return noise(film_, tiles_[i]) <= options_.noise;
+  // Whether a tile needs more samples, and how many it will have in the end. The first follows from the tile's own
+  // samples alone, so that parts of a picture agree, and so does work that is taken up again: tiles are only ever left
+  // at the end of a round. The second is for those who wait: errors fall with the root of the samples' number.
+  void look_ahead(std::size_t i) {
+    const std::uint32_t taken = reached_[i] - first_, before = expected_[i];
+    settled_[i] = reached_[i] == end_;
+    expected_[i] = end_ - first_;
+    if (!settled_[i] && options_.noise > 0 && reached_[i] >= least_samples_for_noise) {
+      const double share = noise(film_, tiles_[i]) / options_.noise;
+      settled_[i] = share <= 1;
+      const double expected = settled_[i] ? taken : std::max(taken + 1.0, taken * share * share);
+      expected_[i] = static_cast<std::uint32_t>(std::min<double>(expected, expected_[i]));
+    }
+    // Less than before is more by a turn of the unsigned numbers.
+    if (control_.progress != nullptr)
+      control_.progress->total += tiles_[i].pixels() * (std::uint64_t{expected_[i]} - before);
   }
 
   bool is_interrupted() const { return control_.interrupted && control_.interrupted(); }
@@ -165,9 +173,10 @@ class FilmWork {
   Film& film_;
   TileGrid tiles_;
   std::uint32_t first_, end_;
-  std::vector<std::uint32_t> reached_;  // by tile: the first sample that is not taken
-  std::vector<char> settled_;           // by tile: it needs no more samples
-  std::uint32_t least_ = 0;             // where the round began
+  std::vector<std::uint32_t> reached_;   // by tile: the first sample that is not taken
+  std::vector<char> settled_;            // by tile: it needs no more samples
+  std::vector<std::uint32_t> expected_;  // by tile: samples from first_ on that it will have
+  std::uint32_t least_ = 0;              // where the round began
   struct TileCut {
     CutPaths of_paths;
     std::uint64_t samples = 0;

@@ -181,6 +181,31 @@ TEST(Renderer, NoiseTargetIsMetWithFewerSamples) {
   EXPECT_EQ(rendering.done[0], (SampleBox{{0, 0, options.width, options.height}, 0, options.samples}));
 }
 
+// Of most_samples a pixel, a share that nobody would wait for.
+TEST(Renderer, ProgressForesaysWhenNoiseWillBeGone) {
+  const Still still;
+  RenderOptions options = small();
+  options.integrator = IntegratorKind::path;
+  options.samples = most_samples;
+  options.noise = 0.02;
+  ProgressCounters progress;
+  std::vector<std::pair<double, double>> shown;
+  RenderControl control;
+  control.progress = &progress;
+  control.interrupted = [&] {
+    shown.emplace_back(static_cast<double>(progress.done), static_cast<double>(progress.total));
+    return false;
+  };
+  ASSERT_TRUE(render(still.scene, still.accelerator, options, control).ok());
+  EXPECT_EQ(progress.done, progress.total);
+  const auto in_the_end = static_cast<double>(progress.total);
+  for (const auto& [done, total] : shown) {
+    if (done < 0.5 * in_the_end) continue;
+    EXPECT_GT(total, 0.8 * in_the_end);
+    EXPECT_LT(total, 1.25 * in_the_end);
+  }
+}
+
 TEST(Renderer, NoiseTargetDecidesAlikeInACrop) {
   const Still still;
   RenderOptions options = small();
