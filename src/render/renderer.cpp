@@ -147,11 +147,11 @@ class FilmWork {
     const std::uint32_t taken = reached_[i] - first_, before = expected_[i];
     settled_[i] = reached_[i] == end_;
     expected_[i] = end_ - first_;
-    if (!settled_[i] && options_.noise > 0 && reached_[i] >= least_samples_for_noise) {
+    if (!settled_[i] && options_.noise > 0 && taken > 1) {
       const double share = noise(film_, tiles_[i]) / options_.noise;
-      settled_[i] = share <= 1;
-      const double expected = settled_[i] ? taken : std::max(taken + 1.0, taken * share * share);
-      expected_[i] = static_cast<std::uint32_t>(std::min<double>(expected, expected_[i]));
+      settled_[i] = taken >= least_samples_for_noise && share <= 1;
+      const double more = std::max({taken + 1.0, static_cast<double>(least_samples_for_noise), taken * share * share});
+      expected_[i] = settled_[i] ? taken : static_cast<std::uint32_t>(std::min<double>(more, expected_[i]));
     }
     // Less than before is more by a turn of the unsigned numbers.
     if (control_.progress != nullptr)
