@@ -12,23 +12,40 @@
 
 namespace tenon {
 
-/// What a classifier has to know about the leaves: where a ray crosses them, and what fills them.
+/// Where a ray crosses the leaves.
 template <class S>
 concept LeafSource = requires(S& source, LeafId leaf, Spans& spans) {
   source.crossings(leaf, spans);  // appends the crossings of the current ray with the leaf, sorted
+};
+
+/// And what fills them.
+template <class S>
+concept MediumSource = LeafSource<S> && requires(S& source, LeafId leaf) {
   { source.has_media() } -> std::convertible_to<bool>;
   { source.medium(leaf) } -> std::convertible_to<MediumId>;
   { source.priority(leaf) } -> std::convertible_to<double>;
 };
 
+/// Which leaves hold the point that a ray has come to.
+template <class E>
+concept LeafStates = requires(E& state, const E& seen, LeafId leaf) {
+  state.reset();
+  state.flip(leaf);
+  { seen.inside(leaf) } -> std::same_as<bool>;
+};
+
 /// Which points of space an expression over the leaves holds: ExpressionState is the model.
 template <class E>
-concept ExpressionEvaluation = requires(E& state, const E& seen, LeafId leaf) {
-  state.reset();
-  { state.flip(leaf) } -> std::same_as<bool>;
+concept ExpressionEvaluation = LeafStates<E> && requires(const E& seen, LeafId leaf) {
   { seen.value() } -> std::same_as<bool>;
-  { seen.inside(leaf) } -> std::same_as<bool>;
   { seen.owns(leaf) } -> std::same_as<bool>;
+};
+
+/// The same by somebody who knows what fills each point, and who owns it.
+template <class E>
+concept MediumEvaluation = LeafStates<E> && requires(const E& seen) {
+  { seen.medium() } -> std::same_as<MediumId>;
+  { seen.owner() } -> std::same_as<LeafId>;
 };
 
 /// A change of the root along the ray: one boundary of the solid, however many faces coincide there.
@@ -67,9 +84,9 @@ struct Run {
 ///
 /// *Media.* Where the source has media, the root's value is the medium of the leaf that owns the point: the one of
 /// highest priority, then the first in tree order, among the leaves that hold the point, are not subtracted and have
-/// every operation above them true.
-template <ExpressionEvaluation State, LeafSource Source>
-class Classifier {
+/// every operation above them true. A MediumEvaluation has worked that out beforehand.
+template <LeafStates State, LeafSource Source>
+requires MediumEvaluation<State> ||(ExpressionEvaluation<State>&& MediumSource<Source>)class Classifier {
  public:
   Classifier(State state, Source source, std::size_t leaf_count)
       : state_(std::move(state)), source_(std::move(source)), revealed_(leaf_count), inside_place_(leaf_count) {}
@@ -214,23 +231,31 @@ class Classifier {
   }
 
   MediumId evaluate() const {
-    if (!state_.value()) return medium_outside;
-    if (!source_.has_media()) return medium_opaque;
-    const LeafId owner = find_owner();
-    return owner ? source_.medium(owner) : medium_opaque;
+    if constexpr (MediumEvaluation<State>) {
+      return state_.medium();
+    } else {
+      if (!state_.value()) return medium_outside;
+      if (!source_.has_media()) return medium_opaque;
+      const LeafId owner = find_owner();
+      return owner ? source_.medium(owner) : medium_opaque;
+    }
   }
 
   LeafId find_owner() const {
-    LeafId best;
-    for (const LeafId leaf : inside_) {
-      if (!state_.owns(leaf)) continue;
-      if (best) {
-        const double a = source_.priority(leaf), b = source_.priority(best);
-        if (a < b || (a == b && leaf > best)) continue;
+    if constexpr (MediumEvaluation<State>) {
+      return state_.owner();
+    } else {
+      LeafId best;
+      for (const LeafId leaf : inside_) {
+        if (!state_.owns(leaf)) continue;
+        if (best) {
+          const double a = source_.priority(leaf), b = source_.priority(best);
+          if (a < b || (a == b && leaf > best)) continue;
+        }
+        best = leaf;
       }
-      best = leaf;
+      return best;
     }
-    return best;
   }
 
   // The value the root would have with the leaf's bit flipped.

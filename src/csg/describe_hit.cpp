@@ -5,6 +5,19 @@
 
 namespace tenon {
 
+namespace {
+
+// Behind glass that touches an opaque solid it is the opaque solid that is seen.
+bool is_behind_glass(MediumId before, MediumId after) {
+  return before != medium_outside && after == medium_opaque;
+}
+
+}  // namespace
+
+bool shows_owner(const Leaf& leaf, MediumId before, MediumId after) {
+  return !leaf.material || leaf.shows_what_it_cut || is_behind_glass(before, after);
+}
+
 void describe_hit(const CsgTree& tree, const Ray& ray, bool leaf_entering, LeafId owner, Hit& hit) {
   const Leaf& leaf = tree[hit.surface.leaf];
   hit.point = ray.at(hit.t);
@@ -21,9 +34,7 @@ void describe_hit(const CsgTree& tree, const Ray& ray, bool leaf_entering, LeafI
   const bool opposite = leaf_entering != hit.entering;
   hit.normal = opposite ? Vec3{} - hit.normal : Vec3{} + hit.normal;
   if ((!hit.material || leaf.shows_what_it_cut) && owner) hit.material = owner_material(tree, owner, hit.point);
-  // Behind glass that touches an opaque solid it is the opaque solid that is seen.
-  const bool between_media = hit.before != medium_outside && hit.after != medium_outside;
-  if (between_media && hit.after == medium_opaque && owner) hit.material = owner_material(tree, owner, hit.point);
+  if (is_behind_glass(hit.before, hit.after) && owner) hit.material = owner_material(tree, owner, hit.point);
 }
 
 }  // namespace tenon

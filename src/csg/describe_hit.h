@@ -11,4 +11,7 @@ namespace tenon {
 /// @param leaf_entering, owner  as in Run
 void describe_hit(const CsgTree& tree, const Ray& ray, bool leaf_entering, LeafId owner, Hit& hit);
 
+/// Whether the material there may be that of the owner, and not that of the leaf that shows.
+bool shows_owner(const Leaf& leaf, MediumId before, MediumId after);
+
 }  // namespace tenon

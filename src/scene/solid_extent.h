@@ -51,8 +51,9 @@ class SolidExtent {
   Box3 enclosure_;
   double resolution_ = 0;
   cells::LeafRegions leaf_regions_;
+  cells::OwnerRanks ranks_;  // who owns a point makes no difference
   cells::LocalExpression whole_;
-  cells::Folder folder_;
+  cells::Folder folder_{ranks_};
   std::vector<double> leaf_supports_;  // by LeafId, of the direction being asked for
   std::vector<Part> parts_;            // a heap
 };

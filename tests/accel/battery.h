@@ -108,8 +108,9 @@ inline bool same_hit(const Hit& a, const Hit& b) {
 inline std::string describe(const Hit& h) {
   if (!h.found()) return "nothing";
   char text[200];
-  std::snprintf(text, sizeof text, "t=%a (%.9g) bound=%.3g leaf=%u face=%u %s %u->%u faces:", h.t, h.t, h.bound,
-                h.surface.leaf.get(), h.surface.face, h.entering ? "entering" : "leaving", h.before, h.after);
+  std::snprintf(text, sizeof text, "t=%a (%.9g) bound=%.3g leaf=%u face=%u %s %u->%u material=%d faces:", h.t, h.t,
+                h.bound, h.surface.leaf.get(), h.surface.face, h.entering ? "entering" : "leaving", h.before, h.after,
+                h.material ? static_cast<int>(h.material.get()) : -1);
   std::string all = text;
   for (std::size_t i = 0; i < h.faces.size(); ++i) {
     all += ' ' + std::to_string(h.faces[i].leaf.get()) + '/' + std::to_string(h.faces[i].face);

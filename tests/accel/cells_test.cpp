@@ -1,5 +1,5 @@
-#include "accel/battery.h"
 #include "accel/cells/cell_tree.h"
+#include "accel/cells_checks.h"
 #include "csg/expression.h"
 #include "csg/minimum_enclosure.h"
 #include "support/instruction_sets.h"
@@ -10,40 +10,10 @@ namespace {
 using cells::CellTree;
 using cells::Folder;
 using cells::LocalExpression;
-using cells::Owner;
+using cells::OwnerRanks;
 using fixtures::Draw;
 using fixtures::SceneBuilder;
-
-void expect_same_answers(const CsgTree& tree, const std::string& spec, int rounds = 60) {
-  const auto none = build_accelerator("none", tree), judged = build_accelerator(spec, tree);
-  ASSERT_TRUE(judged.ok()) << judged.error().message;
-  const battery::Verdict verdict = battery::judge(**none, **judged, battery::make_rays(tree, **none, rounds, 31));
-  EXPECT_EQ(verdict.mismatches, 0u) << spec << " of " << verdict.rays << " rays; the first:\n" << verdict.first;
-  EXPECT_EQ(verdict.seam_faults, 0u);
-  EXPECT_GT(verdict.hits, verdict.rays / 10);
-}
-
-double detail(const Accelerator& accelerator, std::string_view what) {
-  for (const auto& one : accelerator.figures().details) {
-    if (one.what == what) return one.value;
-  }
-  ADD_FAILURE() << "no figure is called " << what;
-  return 0;
-}
-
-// Spheres that all touch one plane at the origin, from both sides: whatever contains that point straddles all.
-CsgTree tangent_spheres(int count) {
-  SceneBuilder b;
-  std::vector<SceneNodeId> parts;
-  for (int i = 0; i < count; ++i) {
-    const double r = (i % 2 == 0 ? 1 : -1) * (0.5 + 0.07 * i);
-    parts.push_back(b.translate({0, 0, r}, b.sphere(std::fabs(r))));
-  }
-  std::vector<SceneNodeId> rings;
-  for (std::size_t i = 0; i + 1 < parts.size(); i += 2) rings.push_back(b.subtract({parts[i + 1], parts[i]}));
-  if (parts.size() % 2 == 1) rings.push_back(parts.back());
-  return b.tree(b.subtract({b.unite(rings), b.translate({0.3, 0.2, 0}, b.sphere(0.4))}));
-}
+using namespace cells_checks;
 
 // Cells below, at and above what a word of truth values, a byte, and the classifier's limit have room for.
 TEST(Cells, AreRightWithAnyNumberOfLeaves) {
@@ -124,63 +94,6 @@ TEST(Cells, PacketsSayWhatSingleRaysSay) {
   EXPECT_GT(found, queries.size() / 4);
 }
 
-struct Answers {
-  std::vector<Hit> hits;
-  std::vector<RayBoundary> boundaries;
-  std::vector<std::uint8_t> occluded;
-};
-
-// All that may be asked of many rays at once.
-Answers ask_together(const Accelerator& accelerator, std::span<const RayQuery> queries, TraceContext& context) {
-  const std::size_t count = queries.size();
-  Answers answers{std::vector<Hit>(count), std::vector<RayBoundary>(count), std::vector<std::uint8_t>(count)};
-  accelerator.first_hits(queries, answers.hits, context);
-  accelerator.first_boundaries(queries, answers.boundaries, context);
-  accelerator.occluded(queries, answers.occluded, context);
-  return answers;
-}
-
-// Rays in all directions, which are followed several at once; from free space, from what they met, along
-// axes, to an end, and from further off than single precision can tell.
-void expect_streams_say_what_single_rays_say(const CsgTree& tree, int count) {
-  const auto none = build_accelerator("none", tree), judged = build_accelerator("cells", tree);
-  const auto context = (*none)->make_context(), other = (*judged)->make_context();
-  const Box3 box = battery::extent(tree);
-  Draw draw(36);
-  std::vector<RayQuery> queries;
-  for (int i = 0; i < count; ++i) {
-    RayQuery query;
-    query.ray = {draw.in_box(grown(box, 0.2 * length(box.size()))), draw.direction()};
-    if (i % 7 == 0) query.ray.direction[i / 7 % 3] = 0;
-    if (i % 5 == 0) query.t_max = draw.real(0, length(box.size()));
-    if (i % 50 == 0) query.ray.origin = query.ray.origin - 1e6 * length(box.size()) * query.ray.direction;
-    query.kind = RayKind::diffuse;
-    queries.push_back(query);
-  }
-  std::vector<Hit> starts(queries.size());
-  for (std::size_t i = 0; i < starts.size(); ++i) starts[i] = (*none)->first_hit(queries[i], *context);
-  for (const Hit& start : starts) {
-    if (!start.found()) continue;
-    RayQuery query;
-    query.ray = {start.point, draw.direction()};
-    query.from = &start;
-    query.kind = queries.size() % 3 == 0 ? RayKind::reflected : RayKind::diffuse;
-    queries.push_back(query);
-  }
-  const auto [hits, boundaries, occluded] = ask_together(**judged, queries, *other);
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    const Hit hit = (*none)->first_hit(queries[i], *context);
-    ASSERT_TRUE(battery::same_hit(hit, hits[i]))
-        << battery::describe(queries[i]) << ": " << battery::describe(hit) << " against " << battery::describe(hits[i]);
-    ASSERT_EQ(boundaries[i].found(), hit.found()) << battery::describe(queries[i]);
-    ASSERT_EQ(occluded[i] != 0, hit.found()) << battery::describe(queries[i]);
-    if (!hit.found()) continue;
-    EXPECT_EQ(boundaries[i].t, hit.t);
-    EXPECT_EQ(boundaries[i].surface, hit.surface);
-  }
-  EXPECT_EQ(other->statistics.seam_faults, 0u);
-}
-
 TEST(Cells, StreamsSayWhatSingleRaysSay) {
   for (const gallery::Scene& scene : gallery::scenes) {
     SCOPED_TRACE(scene.name);
@@ -259,45 +172,73 @@ TEST(Cells, AreBuiltAlikeByEverybody) {
   for_each_instruction_set([&] { expect_the_same(CellTree::build(tree, box, {}, 1)); });
 }
 
-// What is left of an expression says the same as the whole wherever the constant leaves are as assumed.
-TEST(LocalExpression, FoldedSaysWhatTheWholeSays) {
-  Draw draw(33);
-  for (int round = 0; round < 200; ++round) {
-    const CsgTree tree = gallery::random_scene(static_cast<std::uint64_t>(100 + round), 2 + draw.below(14), 1);
-    const LocalExpression whole = cells::whole_expression(tree);
-    const Expression compiled = Expression::compile(tree);
-    std::vector<Region> regions;
-    for (std::size_t i = 0; i < tree.leaves.size(); ++i) regions.push_back(static_cast<Region>(draw.below(3)));
-    Folder folder;
-    LocalExpression left;
-    const cells::Folded folded = folder.fold(
-        whole, [&](LeafId leaf) { return regions[leaf.get()]; }, left);
-    for (int trial = 0; trial < 20; ++trial) {
-      std::vector<bool> inside;
-      for (const Region region : regions) {
-        inside.push_back(region == Region::inside || (region == Region::straddles && draw.one_in(2)));
-      }
-      ExpressionState oracle(compiled);
-      oracle.reset();
-      std::uint32_t first_owner = Owner::nobody;
-      for (std::size_t i = 0; i < inside.size(); ++i) {
-        if (inside[i]) oracle.flip(LeafId{i});
-      }
-      for (std::size_t i = inside.size(); i-- > 0;) {
-        if (inside[i] && oracle.owns(LeafId{i})) first_owner = static_cast<std::uint32_t>(i);
-      }
-      const auto holds = [&](LeafId leaf) { return inside[leaf.get()]; };
-      EXPECT_EQ(cells::evaluate(whole, holds).value, oracle.value());
-      if (folded.constant) {
-        EXPECT_EQ(folded.value, oracle.value());
-        continue;
-      }
-      const cells::PointValue point = cells::evaluate(left, holds);
-      ASSERT_EQ(point.value, oracle.value());
-      if (point.value && point.owner.value != Owner::varies) {
-        EXPECT_EQ(point.owner.value, first_owner);
-      }
+// What is left of an expression says the same as the whole wherever the constant leaves are as assumed: whether a point
+// is of the solid, of which medium, and, where that is told, who owns it.
+void expect_folded_says_what_the_whole_says(const CsgTree& tree, Draw& draw) {
+  const OwnerRanks ranks(tree);
+  const LocalExpression whole = cells::whole_expression(tree, ranks);
+  const Expression compiled = Expression::compile(tree);
+  std::vector<Region> regions;
+  for (std::size_t i = 0; i < tree.leaves.size(); ++i) regions.push_back(static_cast<Region>(draw.below(3)));
+  // In two steps, for what was folded once is folded again.
+  std::vector<Region> coarse = regions;
+  for (Region& region : coarse) {
+    if (draw.one_in(2)) region = Region::straddles;
+  }
+  Folder folder(ranks);
+  LocalExpression half, left;
+  cells::Folded folded = folder.fold(
+      whole, [&](LeafId leaf) { return coarse[leaf.get()]; }, half);
+  if (!folded.constant)
+    folded = folder.fold(
+        half, [&](LeafId leaf) { return regions[leaf.get()]; }, left);
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<bool> inside;
+    for (const Region region : regions) {
+      inside.push_back(region == Region::inside || (region == Region::straddles && draw.one_in(2)));
     }
+    ExpressionState oracle(compiled);
+    oracle.reset();
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+      if (inside[i]) oracle.flip(LeafId{i});
+    }
+    // The rule for owners, by all leaves there are.
+    LeafId owner;
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+      if (!inside[i] || !oracle.owns(LeafId{i})) continue;
+      if (!owner || tree.leaves[i].priority > tree[owner].priority) owner = LeafId{i};
+    }
+    const auto holds = [&](LeafId leaf) { return inside[leaf.get()]; };
+    EXPECT_EQ(cells::evaluate(whole, holds).value, oracle.value());
+    const cells::PointValue point =
+        folded.constant ? cells::PointValue{folded.value, folded.owner} : cells::evaluate(left, holds);
+    ASSERT_EQ(point.value, oracle.value());
+    if (!point.value) continue;
+    const MediumId medium = owner && tree.has_media ? tree[owner].medium : medium_opaque;
+    ASSERT_EQ(ranks.medium(point.owner), medium);
+    if (point.owner.is_nobody()) {
+      EXPECT_FALSE(owner);
+    } else if (!point.owner.varies()) {
+      EXPECT_EQ(ranks.leaf(point.owner), owner);
+    }
+  }
+}
+
+TEST(LocalExpression, FoldedSaysWhatTheWholeSays) {
+  constexpr std::uint64_t seed = 33;
+  Draw draw(seed);
+  for (int round = 0; round < 300; ++round) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", round " << round);
+    CsgTree tree = gallery::random_scene(static_cast<std::uint64_t>(100 + round), 2 + draw.below(14), 1);
+    expect_folded_says_what_the_whole_says(tree, draw);
+    // The same tree with priorities, then with media, too.
+    for (Leaf& leaf : tree.leaves) leaf.priority = draw.below(3);
+    expect_folded_says_what_the_whole_says(tree, draw);
+    tree.has_media = true;
+    for (Leaf& leaf : tree.leaves) leaf.medium = static_cast<MediumId>(medium_opaque + draw.below(3));
+    expect_folded_says_what_the_whole_says(tree, draw);
+    for (Leaf& leaf : tree.leaves) leaf.priority = 0;
+    expect_folded_says_what_the_whole_says(tree, draw);
   }
 }
 

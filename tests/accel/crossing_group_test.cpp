@@ -31,6 +31,7 @@ struct Scene {
 
   /// What the classifier finds near 1.
   std::optional<Run> run() const {
+    const cells::CellTree tree;
     cells::CellClassifier classifier({}, {}, Cell::most_tabled);
     constexpr double bound = 0x1p-40;
     for (std::uint32_t i = 0; i < cell.leaf_count; ++i) {
@@ -39,7 +40,7 @@ struct Scene {
       spans.push_back({enter[i], bound, 2 * i + 1, true, false});
       spans.push_back({leave[i], bound, 2 * i, false, false});
     }
-    classifier.state().enter(cell, {});
+    classifier.state().enter(cell, tree);
     classifier.start();
     for (std::uint32_t i = 0; i < cell.leaf_count; ++i) classifier.reveal(LeafId{i});
     while (std::optional<Run> run = classifier.settle(infinity)) {
@@ -64,16 +65,16 @@ TEST(CrossingGroup, SaysWhatTheClassifierSays) {
                                     << scene.cell.table);
     CrossingGroup group;
     ASSERT_TRUE(group.collect(scene.cell.leaf_count, scene.enter, scene.leave, 1, 0x1p-20, 0x1p-30));
-    const std::uint64_t table = scene.cell.table;
+    const auto value_of = [&](std::uint32_t state) { return scene.cell.table >> state & 1; };
     const std::uint32_t after = group.after(scene.before);
-    const bool changes = (table >> scene.before & 1) != (table >> after & 1);
+    const bool changes = value_of(scene.before) != value_of(after);
     const std::optional<tenon::Run> run = scene.run();
     ASSERT_EQ(run.has_value(), changes);
     if (!run) continue;
     ++boundaries;
-    const std::uint32_t faces = group.faces(table, after);
-    const CrossingGroup::End& shown = group.shown(table, after, faces);
-    EXPECT_EQ(run->t, group.first_change(table, after).t);
+    const std::uint32_t faces = group.faces(value_of, after);
+    const CrossingGroup::End& shown = group.shown(value_of, after, faces);
+    EXPECT_EQ(run->t, group.first_change(value_of, after).t);
     EXPECT_EQ(run->surface, (LeafFace{LeafId{shown.place}, 2 * shown.place + (shown.entering ? 1U : 0U)}));
     EXPECT_EQ(run->leaf_entering, shown.entering);
     std::vector<LeafFace> expected;

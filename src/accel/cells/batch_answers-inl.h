@@ -25,13 +25,14 @@ struct BatchFindings {
   static constexpr std::size_t most_rays = RayBatch::most_rays;
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
-  enum Flag : std::uint8_t { entering = 1, was_inside = 2, group = 4 };
+  enum Flag : std::uint8_t { entering = 1, group = 2 };
 
   HWY_ALIGN double t[most_rays];  ///< of the first boundary so far, counted from the start
   std::uint32_t cell[most_rays];  ///< or `none`
   LeafId leaf[most_rays];
-  std::uint8_t flags[most_rays];
-  std::uint64_t unsure = 0;  ///< rays that are left to SingleTracer
+  std::uint8_t flags[most_rays];   ///< of Flag
+  std::uint8_t values[most_rays];  ///< of the cell's points before the boundary and, four bits up, behind it
+  std::uint64_t unsure = 0;        ///< rays that are left to SingleTracer
 
   void Clear(const RayBatch& rays) {
     const RayBatch::D d;
@@ -53,8 +54,16 @@ struct BatchFindings {
     return met;
   }
 
-  static constexpr std::uint8_t flags_of(bool enters, bool inside, bool crowded) {
-    return static_cast<std::uint8_t>((enters ? entering : 0) | (inside ? was_inside : 0) | (crowded ? group : 0));
+  static constexpr std::uint8_t flags_of(bool enters, bool crowded) {
+    return static_cast<std::uint8_t>((enters ? entering : 0) | (crowded ? group : 0));
+  }
+  static constexpr std::uint8_t values_of(std::uint64_t before, std::uint64_t after) {
+    return static_cast<std::uint8_t>(before | after << 4);
+  }
+
+  void TakeValues(std::size_t ray, CellAnswer& answer) const {
+    answer.before = values[ray] & 15;
+    answer.after = values[ray] >> 4;
   }
 };
 
@@ -212,7 +221,7 @@ class BatchAnswers {
       if (starts_here || !(t - 2 * near > near)) continue;
       CellAnswer answer;
       const CellStretch stretch{t - 2 * near, t + 2 * near, 0.5 * near, together_ * near, Sink::wanted == Wanted::hit};
-      if (MeetChords(cell, chords, lane, stretch, runs, answer) != Outcome::met) continue;
+      if (MeetChords(cells_, cell, chords, lane, stretch, runs, answer) != Outcome::met) continue;
       answer.kind = answer.t < query.t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
       answer.cell = found_.cell[i];
       sink.put(begin + i, answer);
@@ -318,7 +327,7 @@ class BatchAnswers {
       answer.cell = found_.cell[i];
       answer.surface = {found_.leaf[i], static_cast<std::uint32_t>(face[lane])};
       answer.leaf_entering = (found_.flags[i] & BatchFindings::entering) != 0;
-      answer.before = (found_.flags[i] & BatchFindings::was_inside) != 0;
+      found_.TakeValues(i, answer);
       sink.put(begin + i, answer);
       done |= std::uint64_t{1} << i;
     }
@@ -328,18 +337,14 @@ class BatchAnswers {
   void Answer(std::size_t i, CellAnswer& answer, SingleTracer& single, TraversalStatistics& statistics) const {
     const RayQuery& query = rays_.queries[i];
     if ((found_.unsure >> i & 1) != 0) return single.Trace(query, answer, statistics[query.kind]);
-    const Cell& cell = cells_.cells[found_.cell[i]];
     answer.cell = found_.cell[i];
     answer.t = found_.t[i] + rays_.start[i];
+    if ((found_.flags[i] & BatchFindings::group) != 0) return single.FinishGroup(query, answer);
     answer.surface = {found_.leaf[i], 0};
     answer.leaf_entering = (found_.flags[i] & BatchFindings::entering) != 0;
-    answer.before = (found_.flags[i] & BatchFindings::was_inside) != 0;
+    found_.TakeValues(i, answer);
     single.BeginKnown(query);
-    if ((found_.flags[i] & BatchFindings::group) != 0) {
-      single.FinishGroup(cell, answer);
-    } else {
-      single.Finish(answer);
-    }
+    single.Finish(answer);
   }
 
   const CellTree& cells_;

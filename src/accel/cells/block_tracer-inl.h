@@ -257,7 +257,14 @@ class BlockTracer {
       }
     }
     const auto together = hn::Mul(ray.near, hn::Set(d, tolerance_ / (2 * cells_.scale.resolution)));
-    walk.Follow(d, count, lanes, hn::Set(u, cell.table), t_in, t_out, ray.near, together);
+    const auto table = hn::Set(u, cell.table);
+    if (HWY_LIKELY(cell.values != Cell::Values::several)) {
+      walk.Follow(d, count, lanes, table, t_in, t_out, ray.near, together);
+    } else {
+      const ValueTable values = cells_.values_of(cell);
+      const hn::Vec<U> tables[] = {table, hn::Set(u, values.bits[1].word), hn::Set(u, values.bits[2].word)};
+      walk.Follow(d, count, lanes, tables, t_in, t_out, ray.near, together);
+    }
     bool shorter = false;
     if (HWY_UNLIKELY(!hn::AllFalse(d, walk.unsure))) shorter = Drop(at, RayBatch::Bits(walk.unsure));
     const auto best = hn::Load(d, &found_.t[at]);
@@ -266,14 +273,17 @@ class BlockTracer {
     if (bits == 0) return shorter;
     hn::Store(hn::IfThenElse(better, walk.t, best), d, &found_.t[at]);
     HWY_ALIGN std::uint64_t place[double_lanes];
+    HWY_ALIGN std::uint64_t before[double_lanes];
+    HWY_ALIGN std::uint64_t behind[double_lanes];
     hn::Store(walk.place, u, place);
+    hn::Store(walk.before, u, before);
+    hn::Store(walk.behind, u, behind);
     // Nothing behind the boundary counts; rounded up, for cells whose boxes overlap by the slack.
     const HalfF f;
     const auto end = hn::DemoteTo(f, hn::Mul(walk.t, hn::Set(d, 1 + 0x1p-20)));
     HWY_ALIGN float ends[double_lanes];
     hn::Store(end, f, ends);
     const std::uint32_t enter_bits = RayBatch::Bits(walk.enters), crowd_bits = RayBatch::Bits(walk.crowded);
-    const std::uint32_t inside_bits = RayBatch::Bits(walk.inside);
     for (; bits != 0; bits &= bits - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
       const std::size_t i = at + lane;
@@ -282,8 +292,8 @@ class BlockTracer {
       const double certain = found_.t[i] + rays_.start[i] + 2 * rays_.near[i];
       const bool is_done = any_will_do_ && certain < rays_.end[i];
       rays_.box_end[i] = is_done ? -1 : std::min(rays_.box_end[i], ends[lane]);
-      found_.flags[i] = BatchFindings::flags_of((enter_bits >> lane & 1) != 0, (inside_bits >> lane & 1) != 0,
-                                                (crowd_bits >> lane & 1) != 0);
+      found_.flags[i] = BatchFindings::flags_of((enter_bits >> lane & 1) != 0, (crowd_bits >> lane & 1) != 0);
+      found_.values[i] = BatchFindings::values_of(before[lane], behind[lane]);
     }
     return true;
   }

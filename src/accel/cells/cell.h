@@ -4,8 +4,29 @@
 #include <cstdint>
 
 #include "accel/cells/leaf_records.h"
+#include "accel/cells/value_table.h"
+#include "tenon/csg/hit.h"
 
 namespace tenon::cells {
+
+/// The leaf that owns points of the solid; none where nobody does.
+struct CellOwner {
+  LeafId leaf;
+
+  /// Different leaves own them: which one, the exact structure knows.
+  static constexpr CellOwner varying() { return {LeafId{LeafId::none_value - 1}}; }
+  constexpr bool varies() const { return *this == varying(); }
+  friend constexpr bool operator==(CellOwner, CellOwner) = default;
+};
+
+/// What the values of a cell's points stand for, where there are media.
+struct CellMedia {
+  std::array<MediumId, ValueTable::most_values> media{};
+  std::array<CellOwner, ValueTable::most_values> owners{};
+  std::array<std::uint64_t, ValueTable::bits_per_value - 1> more_bits{};  ///< of the values, where there are several
+
+  friend bool operator==(const CellMedia&, const CellMedia&) = default;
+};
 
 /// A cell in one cache line. With up to six leaves the whole expression is one word: bit s of `table` is the value of a
 /// point that lies in the leaves whose bits are set in s.
@@ -14,14 +35,21 @@ struct alignas(64) Cell {
   /// A ray that meets a cell with more leaves is left to the exact structure.
   static constexpr std::size_t most_followed = 64;
 
+  enum class Values : std::uint8_t {
+    solid,    ///< 1 in the solid, which is opaque, 0 outside
+    pair,     ///< one each for two media, told by CellStore::media
+    several,  ///< more of them; the higher bits of a value stand there, too
+  };
+
   std::uint64_t table = 0;
   std::array<RecordRef, most_tabled> records;
   std::array<LeafId, most_tabled> leaves;
   std::uint8_t leaf_count = 0;
   bool general = false;   ///< some leaf has no record
   bool extended = false;  ///< more than six leaves: the expression stands in CellTree::symbols
-  std::uint32_t owner =
-      0;  ///< Owner::value of the points of the solid here; Owner::varies: it takes the exact structure
+  Values values = Values::solid;
+  /// Of Values::solid: who owns the solid's points here. Else an index into CellStore::media.
+  std::uint32_t owner_or_media = CellOwner{}.leaf.get();
 };
 
 /// The expression of a cell with more than six leaves.

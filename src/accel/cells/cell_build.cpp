@@ -169,7 +169,7 @@ BuiltCells build_cells(const SubdivisionInput& input, const Box3& box, const Vec
   SpacePart root;
   {
     SpacePart whole;
-    whole.expression = whole_expression(input.tree);
+    whole.expression = whole_expression(input.tree, input.ranks);
     whole.depth = -1;
     workers[0].restrict_to(box, whole, root);
   }

@@ -16,10 +16,24 @@ ChildRef CellStore::add(const Cell& cell) {
   return ChildRef::cell(cells.size() - 1);
 }
 
+ChildRef CellStore::add(Cell cell, const CellMedia& media_there) {
+  ContentHash hash;
+  for (const MediumId medium : media_there.media) hash.add(medium);
+  for (const CellOwner owner : media_there.owners) hash.add(owner.leaf.get());
+  for (const std::uint64_t bits : media_there.more_bits) hash.add(bits);
+  const auto known =
+      media_index_.find(hash.value(), [&](std::uint32_t i) { return i < media.size() && media[i] == media_there; });
+  cell.owner_or_media = known.value_or(static_cast<std::uint32_t>(media.size()));
+  if (!known) {
+    media_index_.note(hash.value(), cell.owner_or_media);
+    media.push_back(media_there);
+  }
+  return add(cell);
+}
+
 ChildRef CellStore::add_extended(std::span<const Symbol> expression, std::uint32_t leaf_count) {
   Cell cell;
   cell.extended = true;
-  cell.owner = Owner::varies;
   cell.table = extended.size();
   ExtendedCell more;
   more.first_symbol = static_cast<std::uint32_t>(symbols.size());
@@ -37,11 +51,12 @@ ChildRef CellStore::add_extended(std::span<const Symbol> expression, std::uint32
 }
 
 void CellStore::append(const CellStore& part) {
-  const std::size_t first_cell = cells.size(), first_extended = extended.size();
+  const std::size_t first_cell = cells.size(), first_extended = extended.size(), first_media = media.size();
   cells::append(cells, part.cells);
   cells::append(extended, part.extended);
   for (std::size_t i = first_cell; i < cells.size(); ++i) {
     if (cells[i].extended) cells[i].table += first_extended;
+    if (cells[i].values != Cell::Values::solid) cells[i].owner_or_media += static_cast<std::uint32_t>(first_media);
   }
   for (std::size_t i = first_extended; i < extended.size(); ++i) {
     extended[i].first_symbol += static_cast<std::uint32_t>(symbols.size());
@@ -49,6 +64,7 @@ void CellStore::append(const CellStore& part) {
   }
   cells::append(symbols, part.symbols);
   cells::append(extended_leaves, part.extended_leaves);
+  cells::append(media, part.media);
 }
 
 void CellStore::rewind(const Mark& mark) {
@@ -56,11 +72,12 @@ void CellStore::rewind(const Mark& mark) {
   extended.resize(mark.extended);
   symbols.resize(mark.symbols);
   extended_leaves.resize(mark.extended_leaves);
+  media.resize(mark.media);
 }
 
 std::size_t CellStore::memory_bytes() const {
   return cells.size() * sizeof(Cell) + extended.size() * sizeof(ExtendedCell) + symbols.size() * sizeof(Symbol) +
-         extended_leaves.size() * sizeof(LeafId);
+         extended_leaves.size() * sizeof(LeafId) + media.size() * sizeof(CellMedia);
 }
 
 }  // namespace tenon::cells

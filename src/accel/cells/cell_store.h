@@ -8,6 +8,7 @@
 #include "accel/cells/local_expression.h"
 #include "accel/cells/wide_node.h"
 #include "base/huge_pages.h"
+#include "tenon/base/hash_index.h"
 
 namespace tenon::cells {
 
@@ -17,6 +18,23 @@ struct CellStore {
   std::vector<ExtendedCell> extended;  ///< Cell::table is an index into it
   std::vector<Symbol> symbols;
   std::vector<LeafId> extended_leaves;
+  std::vector<CellMedia> media;
+
+  /// What one of the values of a cell's table stands for.
+  MediumId medium_of(const Cell& cell, std::uint32_t value) const {
+    if (cell.values == Cell::Values::solid) return value != 0 ? medium_opaque : medium_outside;
+    return media[cell.owner_or_media].media[value];
+  }
+  /// Who owns the solid's points that have it.
+  CellOwner owner_of(const Cell& cell, std::uint32_t value) const {
+    if (cell.values == Cell::Values::solid) return {LeafId{cell.owner_or_media}};
+    return media[cell.owner_or_media].owners[value];
+  }
+  ValueTable values_of(const Cell& cell) const {
+    if (cell.values != Cell::Values::several) return {{TruthTable{cell.table}}};
+    const auto& more = media[cell.owner_or_media].more_bits;
+    return {{TruthTable{cell.table}, TruthTable{more[0]}, TruthTable{more[1]}}};
+  }
 
   std::span<const Symbol> symbols_of(const Cell& cell) const {
     if (!cell.extended) return {};
@@ -34,6 +52,8 @@ struct CellStore {
   }
 
   ChildRef add(const Cell& cell);
+  /// A cell of these media; its `owner_or_media` is filled in.
+  ChildRef add(Cell cell, const CellMedia& media_there);
   /// A cell with more leaves than a table has room for. Where there are too many for a ray to be followed, the
   /// expression is left out.
   ChildRef add_extended(std::span<const Symbol> expression, std::uint32_t leaf_count);
@@ -42,12 +62,15 @@ struct CellStore {
   void append(const CellStore& part);
 
   struct Mark {
-    std::size_t cells, extended, symbols, extended_leaves;
+    std::size_t cells, extended, symbols, extended_leaves, media;
   };
-  Mark mark() const { return {cells.size(), extended.size(), symbols.size(), extended_leaves.size()}; }
+  Mark mark() const { return {cells.size(), extended.size(), symbols.size(), extended_leaves.size(), media.size()}; }
   void rewind(const Mark& mark);
 
   std::size_t memory_bytes() const;
+
+ private:
+  HashIndex media_index_;  // may hold some that were taken back
 };
 
 }  // namespace tenon::cells

@@ -99,6 +99,14 @@ void TraceOcclusion(const CellTree& cells, const CsgTree& tree, std::span<const 
   TraceInto(cells, tree, queries, sink, scratch, statistics);
 }
 
+bool TraceAll(const CellTree& cells, const CsgTree& tree, const RayQuery& query, TellBoundary tell,
+              CellScratch& scratch, TraversalStatistics& statistics) {
+  scratch.runs.clear();
+  TraversalCounters& counters = statistics[query.kind];
+  ++counters.rays;
+  return SingleTracer(cells, tree, scratch, Wanted::hit).TraceAll(query, tell, counters);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace tenon::cells
 HWY_AFTER_NAMESPACE();
@@ -109,6 +117,7 @@ namespace tenon::cells {
 HWY_EXPORT(TraceAnswers);
 HWY_EXPORT(TraceBoundaries);
 HWY_EXPORT(TraceOcclusion);
+HWY_EXPORT(TraceAll);
 
 void trace_rays(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries, const AnswerSink& sink,
                 CellScratch& scratch, TraversalStatistics& statistics) {
@@ -121,6 +130,11 @@ void trace_rays(const CellTree& cells, const CsgTree& tree, std::span<const RayQ
 void trace_rays(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries,
                 const OcclusionSink& sink, CellScratch& scratch, TraversalStatistics& statistics) {
   HWY_DYNAMIC_DISPATCH(TraceOcclusion)(cells, tree, queries, sink, scratch, statistics);
+}
+
+bool trace_all(const CellTree& cells, const CsgTree& tree, const RayQuery& query, TellBoundary tell,
+               CellScratch& scratch, TraversalStatistics& statistics) {
+  return HWY_DYNAMIC_DISPATCH(TraceAll)(cells, tree, query, tell, scratch, statistics);
 }
 
 }  // namespace tenon::cells

@@ -9,6 +9,7 @@
 #include "accel/cells/cell_tree.h"
 #include "csg/classifier.h"
 #include "tenon/accel/accelerator.h"
+#include "tenon/base/function_ref.h"
 #include "tenon/primitive/crossing.h"
 
 namespace tenon::cells {
@@ -31,7 +32,8 @@ struct CellAnswer {
   double t = 0;  ///< see Wanted
   Kind kind = Kind::nothing;
   bool leaf_entering = false;  ///< the ray enters the leaf whose face it meets
-  bool before = false;         ///< whether the ray was inside the solid
+  std::uint8_t before = 0;     ///< the values of the cell's points on the ray's side, unless there is a run
+  std::uint8_t after = 0;      ///< and behind
   LeafFace surface;
   std::uint32_t cell = 0;
   static constexpr std::uint32_t no_run = ~std::uint32_t{0};
@@ -41,32 +43,47 @@ struct CellAnswer {
 /// The expression of one cell, for the classifier; leaves by their place in the cell.
 class CellState {
  public:
-  void enter(const Cell& cell, std::span<const Symbol> symbols) {
-    table_ = cell.table;
-    symbols_ = symbols;
-    count_ = cell.extended ? symbols.size() : cell.leaf_count;
+  /// @param cells  outlives its use
+  void enter(const Cell& cell, const CellTree& cells) {
+    cell_ = &cell;
+    cells_ = &cells;
+    symbols_ = cells.symbols_of(cell);
+    values_ = cell.extended ? ValueTable{} : cells.values_of(cell);
+    count_ = cells.leaves_of(cell).size();
   }
   void reset() { inside_.assign(count_, false); }
-  bool flip(LeafId leaf) {
-    inside_[leaf.get()] = !inside_[leaf.get()];
-    return value();
-  }
-  bool value() const {
-    if (symbols_.empty()) {
-      std::uint32_t state = 0;
-      for (std::size_t i = 0; i < count_; ++i) state |= static_cast<std::uint32_t>(inside_[i]) << i;
-      return (table_ >> state & 1) != 0;
-    }
-    // The leaves stand in the order of the symbols.
-    std::size_t next = 0;
-    return evaluate(symbols_, [&](LeafId) { return inside_[next++]; }).value;
-  }
+  void flip(LeafId leaf) { inside_[leaf.get()] = !inside_[leaf.get()]; }
   bool inside(LeafId leaf) const { return inside_[leaf.get()]; }
-  /// Who owns the solid is known of the cell as a whole (Cell::owner).
-  bool owns(LeafId) const { return false; }
+
+  /// What fills the point. Leaves that were folded away may own it, so those of the cell alone do not tell.
+  MediumId medium() const {
+    if (!cell_->extended) return cells_->medium_of(*cell_, table_value());
+    const PointValue point = point_value();
+    return point.value ? cells_->ranks.medium(point.owner) : medium_outside;
+  }
+  /// Who owns it; CellOwner::varying() for one that is not known.
+  LeafId owner() const {
+    if (!cell_->extended) return cells_->owner_of(*cell_, table_value()).leaf;
+    const Owner owner = point_value().owner;
+    if (owner.is_nobody()) return {};
+    return owner.varies() ? CellOwner::varying().leaf : cells_->ranks.leaf(owner);
+  }
 
  private:
-  std::uint64_t table_ = 0;
+  std::uint32_t table_value() const {
+    std::uint32_t state = 0;
+    for (std::size_t i = 0; i < count_; ++i) state |= static_cast<std::uint32_t>(inside_[i]) << i;
+    return values_.value(state);
+  }
+  PointValue point_value() const {
+    // The leaves stand in the order of the symbols.
+    std::size_t next = 0;
+    return evaluate(symbols_, [&](LeafId) { return inside_[next++]; });
+  }
+
+  const Cell* cell_ = nullptr;
+  const CellTree* cells_ = nullptr;
+  ValueTable values_;
   std::span<const Symbol> symbols_;
   std::size_t count_ = 0;
   std::vector<bool> inside_;
@@ -80,9 +97,6 @@ struct CellCrossings {
     const Spans& known = of_leaf[place.get()];
     out.insert(out.end(), known.begin(), known.end());
   }
-  bool has_media() const { return false; }
-  MediumId medium(LeafId) const { return medium_opaque; }
-  double priority(LeafId) const { return 0; }
 };
 
 using CellClassifier = Classifier<CellState, CellCrossings>;
@@ -100,7 +114,7 @@ struct CellScratch {
   std::vector<KnownSpans> mailbox = std::vector<KnownSpans>(known);
   std::uint64_t ray = 0;
   std::optional<CellClassifier> classifier;  ///< for as many leaves as any cell has
-  std::vector<Run> runs;                     ///< of the tile
+  std::vector<Run> runs;                     ///< of the tile; their owner may be CellOwner::varying()
 };
 
 /// The face of the leaf that the ray starts on, or -1.
@@ -125,6 +139,8 @@ struct AnswerSink {
 struct BoundarySink {
   std::span<RayBoundary> boundaries;
   std::vector<std::uint32_t>& unsure;  ///< rays, by their places
+  const CellTree& cells;
+  const std::vector<Run>& runs;  ///< of the scratch memory
 
   static constexpr Wanted wanted = Wanted::boundary;
   void put(std::size_t i, const CellAnswer& answer) const {
@@ -132,8 +148,14 @@ struct BoundarySink {
     RayBoundary& boundary = boundaries[i];
     boundary.t = is_known ? answer.t : std::numeric_limits<double>::infinity();
     boundary.surface = answer.surface;
-    boundary.entering = is_known && !answer.before;
+    boundary.entering = is_known && enters(answer);
     if (answer.kind == CellAnswer::Kind::unsure) unsure.push_back(static_cast<std::uint32_t>(i));
+  }
+
+ private:
+  bool enters(const CellAnswer& answer) const {
+    if (answer.run != CellAnswer::no_run) return runs[answer.run].after != medium_outside;
+    return cells.medium_of(answer.cell, answer.after) != medium_outside;
   }
 };
 
@@ -159,5 +181,13 @@ void trace_rays(const CellTree& cells, const CsgTree& tree, std::span<const RayQ
                 CellScratch& scratch, TraversalStatistics& statistics);
 void trace_rays(const CellTree& cells, const CsgTree& tree, std::span<const RayQuery> queries,
                 const OcclusionSink& sink, CellScratch& scratch, TraversalStatistics& statistics);
+
+/// Takes a boundary; returns whether to go on.
+using TellBoundary = FunctionRef<bool(const CellAnswer&)>;
+
+/// Follows a ray through all its boundaries before t_max, the nearest first, until `tell` does not go on.
+/// @return false where some that follow the last one told are left to the exact structure
+bool trace_all(const CellTree& cells, const CsgTree& tree, const RayQuery& query, TellBoundary tell,
+               CellScratch& scratch, TraversalStatistics& statistics);
 
 }  // namespace tenon::cells

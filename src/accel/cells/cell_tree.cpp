@@ -15,9 +15,10 @@ CellTree CellTree::build(const CsgTree& tree, const Box3& box, const BuildQualit
   result.center = result.box.center();
   result.records = LeafRecords::of(tree, result.scale, result.center);
   result.shapes = PlacedShapes::of(tree, result.scale);
+  result.ranks = OwnerRanks(tree);
   const LeafRegions regions(tree, &result.records);
-  BuiltCells built =
-      build_cells({tree, result.scale, result.records, regions, quality}, result.box, result.center, threads);
+  BuiltCells built = build_cells({tree, result.scale, result.records, regions, result.ranks, quality}, result.box,
+                                 result.center, threads);
   static_cast<CellStore&>(result) = std::move(built.store);
   result.nodes = std::move(built.nodes);
   result.depth = built.depth;
@@ -27,11 +28,15 @@ CellTree CellTree::build(const CsgTree& tree, const Box3& box, const BuildQualit
 
 std::vector<std::pair<std::string, double>> CellTree::details() const {
   std::array<std::size_t, Cell::most_tabled + 1> by_count{};
+  std::array<std::size_t, 3> by_values{};
   std::size_t varying = 0, general = 0;
   for (const Cell& cell : cells) {
     if (cell.extended) continue;
     ++by_count[cell.leaf_count];
-    varying += cell.owner == Owner::varies;
+    bool varies = false;
+    for (std::uint32_t value = 0; value < ValueTable::most_values; ++value) varies |= owner_of(cell, value).varies();
+    varying += varies ? 1 : 0;
+    by_values[static_cast<std::size_t>(cell.values)] += 1;
     general += cell.general;
   }
   std::vector<std::pair<std::string, double>> result{{"nodes", static_cast<double>(nodes.size())},
@@ -44,6 +49,11 @@ std::vector<std::pair<std::string, double>> CellTree::details() const {
   result.emplace_back("leaves in the fullest cell", most_leaves);
   result.emplace_back("cells with leaves of no special kind", static_cast<double>(general));
   result.emplace_back("cells of several materials", static_cast<double>(varying));
+  if (!ranks.is_one_medium()) {
+    result.emplace_back("cells of opaque solids", static_cast<double>(by_values[0]));
+    result.emplace_back("cells between two media", static_cast<double>(by_values[1]));
+    result.emplace_back("cells of more media", static_cast<double>(by_values[2]));
+  }
   return result;
 }
 

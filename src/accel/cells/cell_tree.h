@@ -24,6 +24,7 @@ struct CellTree : CellStore {
   HugePageVector<WideNode> nodes;
   LeafRecords records;
   PlacedShapes shapes;
+  OwnerRanks ranks;
   int depth = 0;
   std::uint32_t most_leaves = 0;  ///< in one cell
 
@@ -33,6 +34,13 @@ struct CellTree : CellStore {
     const auto* const node = reinterpret_cast<const std::uint8_t*>(&nodes[child.index()]);
     for (std::size_t line = 0; line < sizeof(WideNode); line += 64) hwy::Prefetch(node + line);
   }
+
+  /// What one of the values of a cell's table stands for.
+  MediumId medium_of(std::uint32_t cell, std::uint32_t value) const {
+    if (ranks.is_one_medium()) return value != 0 ? medium_opaque : medium_outside;
+    return CellStore::medium_of(cells[cell], value);
+  }
+  using CellStore::medium_of;
 
   bool empty() const { return nodes.empty(); }
   std::size_t memory_bytes() const;

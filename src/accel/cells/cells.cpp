@@ -16,6 +16,7 @@ namespace tenon {
 namespace {
 
 using cells::CellAnswer;
+using cells::CellOwner;
 using cells::CellTree;
 
 /// `cells`: space is cut until the Boolean expression in each cell is a word of truth values over a few primitives, so
@@ -23,7 +24,7 @@ using cells::CellTree;
 ///
 /// Rays are followed by plain arithmetic that proves its own answer: crossings nearer to each other than twice the
 /// resolution (CellScale), grazing rays, rays that start in faces that they do not know of, surfaces without inside,
-/// media, solids without end go to an exact structure, which is built when it is first asked. So the answers are those
+/// solids without end go to an exact structure, which is built when it is first asked. So the answers are those
 /// of every other structure, bit for bit.
 class Cells final : public Accelerator {
  public:
@@ -50,7 +51,7 @@ class Cells final : public Accelerator {
   void first_boundaries(std::span<const RayQuery> queries, std::span<RayBoundary> boundaries,
                         TraceContext& base) const override {
     auto& context = static_cast<Context&>(base);
-    trace(queries, cells::BoundarySink{boundaries, context.unsure}, context);
+    trace(queries, cells::BoundarySink{boundaries, context.unsure, cells_, context.scratch.runs}, context);
     ask_of_unsure(context, [&](std::size_t i, const Accelerator& exact, TraceContext& exact_context) {
       exact.first_boundaries(queries.subspan(i, 1), boundaries.subspan(i, 1), exact_context);
     });
@@ -66,26 +67,27 @@ class Cells final : public Accelerator {
 
   bool any_hit(const RayQuery& query, StopsRay stops, TraceContext& base) const override {
     auto& context = static_cast<Context&>(base);
-    CellAnswer answer;
-    trace({&query, 1}, cells::AnswerSink{{&answer, 1}}, context);
-    if (answer.kind == CellAnswer::Kind::nothing) return false;
-    Hit first;
-    bool asked = false;
-    if (answer.kind == CellAnswer::Kind::boundary && complete(query, answer, first, context)) {
-      if (stops(first)) return true;
-      asked = true;
+    if (cells_.empty()) {
+      ++context.statistics[query.kind].rays;
+      return false;
     }
-    // What lies behind the first boundary; that one is asked once.
-    bool stopped = false;
+    bool stopped = false, is_complete = true;
+    double told = -std::numeric_limits<double>::infinity();
+    const bool is_known = trace_all(
+        cells_, tree_, query,
+        [&](const CellAnswer& answer) {
+          Hit hit;
+          is_complete = complete(query, answer, hit, context);
+          if (!is_complete) return false;
+          told = hit.t;
+          stopped = stops(hit);
+          return !stopped;
+        },
+        context.scratch, context.statistics);
+    if (is_known && is_complete) return stopped;
     exact(context, [&](const Accelerator& exact, TraceContext& exact_context) {
       stopped = exact.any_hit(
-          query,
-          [&](const Hit& hit) {
-            if (!asked || hit.t != first.t) return stops(hit);
-            asked = false;
-            return false;
-          },
-          exact_context);
+          query, [&](const Hit& hit) { return hit.t > told && stops(hit); }, exact_context);
     });
     return stopped;
   }
@@ -122,27 +124,28 @@ class Cells final : public Accelerator {
   // The boundary as the classifier would have found it; false when its material is not known here.
   bool complete(const RayQuery& query, const CellAnswer& answer, Hit& hit, Context& context) const {
     const Leaf& leaf = tree_[answer.surface.leaf];
-    LeafId owner;
-    if (!leaf.material || leaf.shows_what_it_cut) {
-      const std::uint32_t known = cells_.cells[answer.cell].owner;
-      if (known == cells::Owner::varies) return false;
-      if (known != cells::Owner::nobody) owner = LeafId{known};
-    }
     if (answer.run != CellAnswer::no_run) {
       Run run = context.scratch.runs[answer.run];
-      if (owner) run.owner = owner;
+      if (!shows_owner(leaf, run.before, run.after)) run.owner = {};
+      if (CellOwner{run.owner}.varies()) return false;
       hit = make_hit(tree_, query.ray, run);
       return true;
+    }
+    hit.before = cells_.medium_of(answer.cell, answer.before);
+    hit.after = cells_.medium_of(answer.cell, answer.after);
+    CellOwner owner;
+    if (shows_owner(leaf, hit.before, hit.after)) {
+      const std::uint32_t side = hit.after != medium_outside ? answer.after : answer.before;
+      owner = cells_.owner_of(cells_.cells[answer.cell], side);
+      if (owner.varies()) return false;
     }
     hit.t = answer.t;
     hit.bound = cells_.scale.resolution / length(query.ray.direction);
     hit.surface = answer.surface;
     hit.is_surface = false;
-    hit.before = answer.before ? medium_opaque : medium_outside;
-    hit.after = answer.before ? medium_outside : medium_opaque;
     hit.faces.clear();
     hit.faces.push_back(hit.surface);
-    describe_hit(tree_, query.ray, answer.leaf_entering, owner, hit);
+    describe_hit(tree_, query.ray, answer.leaf_entering, owner.leaf, hit);
     return true;
   }
 
@@ -166,14 +169,11 @@ class Cells final : public Accelerator {
   mutable std::unique_ptr<Accelerator> exact_;
 };
 
-// Whether a solid's points and materials follow from inside and outside alone, and the solid has an end.
+// Whether all is solid, and has an end.
 bool is_plain(const CsgTree& tree, const Box3& enclosure) {
-  if (tree.has_media || !(enclosure.is_bounded() || enclosure.is_empty())) return false;
-  for (const Leaf& leaf : tree.leaves) {
-    if (leaf.priority != tree.leaves.front().priority) return false;
-    if (is_surface(tree.primitives, leaf.primitive)) return false;
-  }
-  return true;
+  if (!(enclosure.is_bounded() || enclosure.is_empty())) return false;
+  return std::none_of(tree.leaves.begin(), tree.leaves.end(),
+                      [&](const Leaf& leaf) { return is_surface(tree.primitives, leaf.primitive); });
 }
 
 // Whether there is a great deal of what has a structure of its own. A cell can make no use of what is within one, and a

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "accel/cells/cell.h"
 
 namespace tenon::cells {
 
 /// Crossings of a cell's leaves that certainly form one run: their bounds are at least the scene's tolerance, and they
-/// are no further apart. The rules are those of the classifier, on a word of truth values.
+/// are no further apart. The rules are those of the classifier, on a cell's table: `value_of(state)` is what it says.
 struct CrossingGroup {
   struct End {
     double t = 0;
@@ -19,6 +20,18 @@ struct CrossingGroup {
   };
   End ends[Cell::most_tabled];
   std::uint32_t size = 0;
+
+  /// Keeps the order of the classifier.
+  void add(const End& end) {
+    std::uint32_t place = size++;
+    for (; place > 0; --place) {
+      const End& other = ends[place - 1];
+      if (other.t < end.t || (other.t == end.t && other.place < end.place)) break;
+      ends[place] = other;
+    }
+    ends[place] = end;
+  }
+  std::span<const End> all() const { return {ends, size}; }
 
   /// Collects the crossings at t. A chord is longer than four resolutions, so one of its ends at most is near.
   /// @param near      crossings further apart than this are told apart for certain
@@ -56,24 +69,26 @@ struct CrossingGroup {
     }
   }
 
-  const End& first_change(std::uint64_t table, std::uint32_t after) const {
+  template <class ValueOf>
+  const End& first_change(const ValueOf& value_of, std::uint32_t after) const {
     std::uint32_t state = before(after);
-    const std::uint64_t value = table >> state & 1;
+    const auto value = value_of(state);
     for (std::uint32_t k = 0; k < size; ++k) {
       state ^= 1U << ends[k].place;
-      if ((table >> state & 1) != value) return ends[k];
+      if (value_of(state) != value) return ends[k];
     }
     return ends[0];
   }
 
   /// The places of the leaves whose bits alone change the value before all of them or behind all of them, a bit each.
-  std::uint32_t faces(std::uint64_t table, std::uint32_t after) const {
+  template <class ValueOf>
+  std::uint32_t faces(const ValueOf& value_of, std::uint32_t after) const {
     std::uint32_t places = 0;
     for (const std::uint32_t state : {before(after), after}) {
-      const std::uint64_t value = table >> state & 1;
+      const auto value = value_of(state);
       for (std::uint32_t k = 0; k < size; ++k) {
         const std::uint32_t bit = 1U << ends[k].place;
-        if ((table >> (state ^ bit) & 1) != value) places |= bit;
+        if (value_of(state ^ bit) != value) places |= bit;
       }
     }
     return places;
@@ -87,25 +102,15 @@ struct CrossingGroup {
   }
 
   /// What shows: the first leaf of `faces`; without any the first change.
-  const End& shown(std::uint64_t table, std::uint32_t after, std::uint32_t faces) const {
+  template <class ValueOf>
+  const End& shown(const ValueOf& value_of, std::uint32_t after, std::uint32_t faces) const {
     for (std::uint32_t k = 0; k < size; ++k) {
       if (faces != 0 && ends[k].place == static_cast<std::uint32_t>(std::countr_zero(faces))) return ends[k];
     }
-    return first_change(table, after);
+    return first_change(value_of, after);
   }
 
- private:
-  // Keeps the order of the classifier.
-  void add(const End& end) {
-    std::uint32_t place = size++;
-    for (; place > 0; --place) {
-      const End& other = ends[place - 1];
-      if (other.t < end.t || (other.t == end.t && other.place < end.place)) break;
-      ends[place] = other;
-    }
-    ends[place] = end;
-  }
-
+  /// The state before them all.
   std::uint32_t before(std::uint32_t after) const {
     for (std::uint32_t k = 0; k < size; ++k) after ^= 1U << ends[k].place;
     return after;

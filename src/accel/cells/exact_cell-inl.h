@@ -55,10 +55,51 @@ struct CellStretch {
   bool wants_faces;  ///< whether to keep all faces that coincide, as the classifier would
 };
 
+/// Calls body(value_of), where value_of(state) is the value of a cell's points in a state.
+template <class Body>
+HWY_INLINE auto WithValues(const CellStore& cells, const Cell& cell, const Body& body) {
+  if (cell.values == Cell::Values::several) {
+    const ValueTable values = cells.values_of(cell);
+    return body([&](std::uint32_t state) { return values.value(state); });
+  }
+  const std::uint64_t table = cell.table;
+  return body([table](std::uint32_t state) { return static_cast<std::uint32_t>(table >> state & 1); });
+}
+
+/// What crossings that change the value of a cell's points amount to.
+/// @param after    the state behind them
+/// @param face_at  face_at(place, entering) -> LeafFace: what is crossed of the leaf at a place
+template <class ValueOf, class FaceAt>
+void TellGroup(const CellStore& cells, const Cell& cell, const ValueOf& value_of, const CrossingGroup& group,
+               std::uint32_t after, const FaceAt& face_at, const CellStretch& stretch, std::vector<Run>& runs,
+               CellAnswer& answer) {
+  const std::uint32_t faces = group.faces(value_of, after);
+  const CrossingGroup::End shown = group.shown(value_of, after, faces);
+  answer.t = group.first_change(value_of, after).t;
+  answer.leaf_entering = shown.entering;
+  answer.before = static_cast<std::uint8_t>(value_of(group.before(after)));
+  answer.after = static_cast<std::uint8_t>(value_of(after));
+  answer.surface = face_at(shown.place, shown.entering);
+  if (!stretch.wants_faces || std::popcount(faces) < 2) return;
+  answer.run = static_cast<std::uint32_t>(runs.size());
+  Run& run = runs.emplace_back();
+  run.t = answer.t;
+  run.bound = stretch.resolution;
+  run.surface = answer.surface;
+  run.leaf_entering = answer.leaf_entering;
+  run.before = cells.medium_of(cell, answer.before);
+  run.after = cells.medium_of(cell, answer.after);
+  run.owner = cells.owner_of(cell, run.after != medium_outside ? answer.after : answer.before).leaf;
+  for (std::uint32_t left = faces; left != 0; left &= left - 1) {
+    const auto place = static_cast<std::uint32_t>(std::countr_zero(left));
+    run.faces.push_back(face_at(place, group.enters(place)));
+  }
+}
+
 /// The first boundary of the ray in a lane, several faces of which may coincide.
-template <std::size_t lanes>
-Outcome MeetChords(const Cell& cell, const CellChords<lanes>& chords, std::size_t lane, const CellStretch& stretch,
-                   std::vector<Run>& runs, CellAnswer& answer) {
+template <std::size_t lanes, class ValueOf>
+Outcome MeetChords(const CellStore& cells, const Cell& cell, const ValueOf& value_of, const CellChords<lanes>& chords,
+                   std::size_t lane, const CellStretch& stretch, std::vector<Run>& runs, CellAnswer& answer) {
   constexpr double never = std::numeric_limits<double>::infinity();
   const double near = 2 * stretch.resolution;
   double enter[Cell::most_tabled], leave[Cell::most_tabled], next[Cell::most_tabled];
@@ -71,8 +112,7 @@ Outcome MeetChords(const Cell& cell, const CellChords<lanes>& chords, std::size_
     state |= static_cast<std::uint32_t>(inside) << i;
     next[i] = inside ? leave[i] : enter[i] > stretch.t_in ? enter[i] : never;
   }
-  const std::uint64_t table = cell.table;
-  const std::uint64_t before = table >> state & 1;
+  const std::uint32_t before = value_of(state);
   for (;;) {
     double t = next[0];
     for (std::uint32_t i = 1; i < count; ++i) t = std::min(t, next[i]);
@@ -83,40 +123,30 @@ Outcome MeetChords(const Cell& cell, const CellChords<lanes>& chords, std::size_
       state ^= 1U << i;
       next[i] = (state >> i & 1) != 0 ? leave[i] : never;
     }
-    if ((table >> state & 1) == before) continue;
+    if (value_of(state) == before) continue;
     CrossingGroup group;
     if (!group.collect(count, enter, leave, t, near, stretch.together)) return Outcome::unsure;
     const std::uint32_t after = group.after(state);
-    if ((table >> after & 1) == before) {
+    if (value_of(after) == before) {
       group.skip(leave, next);
       state = after;
       continue;
     }
-    const std::uint32_t faces = group.faces(table, after);
-    const CrossingGroup::End shown = group.shown(table, after, faces);
     const auto face_at = [&](std::uint32_t place, bool entering) {
       const double face = (entering ? chords.enter_face : chords.leave_face)[place][lane];
       return LeafFace{cell.leaves[place], static_cast<std::uint32_t>(face)};
     };
-    answer.t = group.first_change(table, after).t;
-    answer.leaf_entering = shown.entering;
-    answer.before = before != 0;
-    answer.surface = face_at(shown.place, shown.entering);
-    if (!stretch.wants_faces || std::popcount(faces) < 2) return Outcome::met;
-    answer.run = static_cast<std::uint32_t>(runs.size());
-    Run& run = runs.emplace_back();
-    run.t = answer.t;
-    run.bound = stretch.resolution;
-    run.surface = answer.surface;
-    run.leaf_entering = answer.leaf_entering;
-    run.before = answer.before ? medium_opaque : medium_outside;
-    run.after = answer.before ? medium_outside : medium_opaque;
-    for (std::uint32_t left = faces; left != 0; left &= left - 1) {
-      const auto place = static_cast<std::uint32_t>(std::countr_zero(left));
-      run.faces.push_back(face_at(place, group.enters(place)));
-    }
+    TellGroup(cells, cell, value_of, group, after, face_at, stretch, runs, answer);
     return Outcome::met;
   }
+}
+
+template <std::size_t lanes>
+Outcome MeetChords(const CellStore& cells, const Cell& cell, const CellChords<lanes>& chords, std::size_t lane,
+                   const CellStretch& stretch, std::vector<Run>& runs, CellAnswer& answer) {
+  return WithValues(cells, cell, [&](const auto& value_of) {
+    return MeetChords(cells, cell, value_of, chords, lane, stretch, runs, answer);
+  });
 }
 
 /// Follows one ray through one cell after another, exactly. Here t is that of the ray as it was asked.
@@ -167,6 +197,35 @@ class ExactCell {
     return false;
   }
 
+  /// The same for crossings that coincide, and change the value of the cell's points.
+  /// @param about        where plain arithmetic has found them, from a start
+  /// @param after        the state behind them
+  /// @param wants_faces  whether to keep all faces that coincide, as the classifier would
+  HWY_NOINLINE bool FinishGroup(const Cell& cell, const CrossingGroup& about, double start, std::uint32_t after,
+                                bool wants_faces, CellAnswer& answer) {
+    CrossingGroup group;
+    std::array<std::uint32_t, Cell::most_tabled> faces{};
+    for (const CrossingGroup::End& end : about.all()) {
+      CellAnswer crossing;
+      crossing.t = end.t + start;
+      crossing.leaf_entering = end.entering;
+      crossing.surface.leaf = cell.leaves[end.place];
+      if (!Finish(crossing)) return false;
+      group.add({crossing.t, end.place, end.entering});
+      faces[end.place] = crossing.surface.face;
+    }
+    return WithValues(cells_, cell, [&](const auto& value_of) {
+      const double t = group.first_change(value_of, after).t;
+      for (const CrossingGroup::End& end : group.all()) {
+        if (!(std::fabs(end.t - t) <= together_)) return false;
+      }
+      const auto face_at = [&](std::uint32_t place, bool) { return LeafFace{cell.leaves[place], faces[place]}; };
+      const CellStretch stretch{t, t, resolution_, together_, wants_faces};
+      TellGroup(cells_, cell, value_of, group, after, face_at, stretch, scratch_.runs, answer);
+      return true;
+    });
+  }
+
   /// The first boundary in a cell whose leaves all have chords, several of which coincide there.
   /// @param wants_faces  whether to keep all faces that do, as the classifier would
   HWY_NOINLINE Outcome Meet(const Cell& cell, double t_in, double t_out, bool wants_faces, CellAnswer& answer) {
@@ -183,7 +242,8 @@ class ExactCell {
       const bool is_clear = t_in > near || StartIsClear(chords.enter[i][0], chords.leave[i][0], on_face, near);
       if (!is_clear) return Outcome::unsure;
     }
-    return MeetChords(cell, chords, 0, {t_in, t_out, resolution_, together_, wants_faces}, scratch_.runs, answer);
+    return MeetChords(cells_, cell, chords, 0, {t_in, t_out, resolution_, together_, wants_faces}, scratch_.runs,
+                      answer);
   }
 
   /// Has the classifier follow the ray through the cell, with the bounds of all crossings.
@@ -207,7 +267,7 @@ class ExactCell {
       }
       lists[i] = known;
     }
-    classifier.state().enter(cell, cells_.symbols_of(cell));
+    classifier.state().enter(cell, cells_);
     classifier.start();
     for (std::size_t i = 0; i < leaves.size(); ++i) classifier.reveal(LeafId{i});
     while (std::optional<Run> run = classifier.settle(std::numeric_limits<double>::infinity())) {
@@ -215,7 +275,6 @@ class ExactCell {
       if (!(run->t > t_in)) continue;
       answer.t = run->t;
       answer.leaf_entering = run->leaf_entering;
-      answer.before = run->before != medium_outside;
       run->surface.leaf = leaves[run->surface.leaf.get()];
       InlineVector<LeafFace, 4> faces;
       for (std::size_t i = 0; i < run->faces.size(); ++i) {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "accel/cells/truth_table.h"
+#include "accel/cells/value_table.h"
 #include "primitive/local_box.h"
 
 namespace tenon::cells {
@@ -27,7 +27,7 @@ struct TableRegions {
 
 /// What is left of a tabled expression in a part of space.
 struct FoldedTable {
-  TruthTable value;
+  ValueTable value;
   std::uint64_t possible = TruthTable::always;  ///< the states that points of the part may have
   std::uint32_t leaves = 0;                     ///< those that the value depends on, a bit each
 

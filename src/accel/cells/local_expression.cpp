@@ -6,7 +6,7 @@
 
 namespace tenon::cells {
 
-LocalExpression whole_expression(const CsgTree& tree) {
+LocalExpression whole_expression(const CsgTree& tree, const OwnerRanks& ranks) {
   // The compiled expression knows parents; what is wanted here is operands, in tree order.
   const Expression compiled = Expression::compile(tree);
   struct Operand {
@@ -63,23 +63,32 @@ LocalExpression whole_expression(const CsgTree& tree) {
     Symbol leaf;
     leaf.complemented = compiled.leaves[operand.index].complemented;
     leaf.leaf = LeafId{operand.index};
+    if (!leaf.complemented) leaf.owner = ranks.owner(leaf.leaf);
     result.push_back(leaf);
   }
   return result;
 }
 
 // Takes a constant operand into the innermost operation.
-// @return whether that decides the operation's value
-bool Folder::take_constant(bool value, Owner owner) {
+// @return whether that makes the operation false
+bool Folder::take_constant(bool value, Owner owner, std::size_t& at, LocalExpression& result) {
   Frame& frame = frames_.back();
   if (frame.kind == Symbol::Kind::all_of) {
-    if (value) frame.owner = Owner::first(frame.owner, owner);
+    if (value) frame.owner = std::min(frame.owner, owner);
     return !value;
   }
   if (!value) return false;
-  // Operands that vary may own points, and come first in tree order.
-  frame.owner = frame.operands > 0 ? Owner{Owner::varies} : owner;
-  return true;
+  frame.is_full = true;
+  frame.owner = std::min(frame.owner, owner);
+  if (!ranks_.overrides(frame.kept, frame.owner)) {
+    result.resize(frame.output_begin + 1);
+    frame.operands = 0;
+    if (frame.kept < frame.owner) frame.owner = frame.kept.or_worse();
+    frame.kept = {};
+  }
+  // What follows is of a worse rank.
+  if (ranks_.is_tree_order() && !frame.owner.is_nobody()) at = frame.input_end;
+  return false;
 }
 
 // The innermost operation is constant: it leaves, and its value is taken outward until something is still open.
@@ -96,24 +105,37 @@ bool Folder::settle_constant(Folded constant, std::size_t& at, LocalExpression& 
     result.resize(done.output_begin);
     at = done.input_end;
     frames_.pop_back();
-    if (!take_constant(constant.value, constant.value ? constant.owner : Owner{})) return false;
-    constant = {true, frames_.back().kind == Symbol::Kind::any_of, frames_.back().owner};
+    if (!take_constant(constant.value, constant.value ? constant.owner : Owner{}, at, result)) return false;
+    constant = {true, false, {}};
   }
 }
 
-// The innermost operation varies, and all its operands have been seen.
+// The innermost operation varies, or who owns its points does, and all its operands have been seen.
 void Folder::finish_operation(LocalExpression& result) {
   const Frame done = frames_.back();
   frames_.pop_back();
-  ++frames_.back().operands;
-  const auto symbol = result.begin() + static_cast<std::ptrdiff_t>(done.output_begin);
-  const bool has_owner = done.kind == Symbol::Kind::all_of && done.owner != Owner{};
-  if (done.operands == 1 && (!has_owner || symbol[1].kind == Symbol::Kind::all_of)) {
-    if (has_owner) symbol[1].owner = Owner::first(symbol[1].owner, done.owner);
-    result.erase(symbol);
+  Frame& outer = frames_.back();
+  const Owner best = std::min(done.owner, done.kept);
+  if (outer.is_full && !ranks_.overrides(best, outer.owner)) {
+    result.resize(done.output_begin);
+    if (best < outer.owner) outer.owner = best.or_worse();
     return;
   }
-  symbol->owner = has_owner ? done.owner : Owner{};
+  ++outer.operands;
+  outer.kept = std::min(outer.kept, best);
+  const auto symbol = result.begin() + static_cast<std::ptrdiff_t>(done.output_begin);
+  if (done.operands == 1) {
+    // The one operand can do without the operation if it can take what that knows.
+    Symbol& operand = symbol[1];
+    const bool keeps_owner = operand.kind == Symbol::Kind::all_of || operand.is_full;
+    if ((!done.is_full || operand.is_full) && (done.owner.is_nobody() || keeps_owner)) {
+      if (keeps_owner) operand.owner = std::min(operand.owner, done.owner);
+      result.erase(symbol);
+      return;
+    }
+  }
+  symbol->is_full = done.is_full;
+  symbol->owner = done.owner;
   symbol->size = static_cast<std::uint32_t>(result.size() - done.output_begin);
 }
 

@@ -5,27 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "accel/cells/owner_ranks.h"
 #include "csg/csg_tree.h"
 #include "primitive/local_box.h"
 
 namespace tenon::cells {
-
-/// Who owns the solid's points of a region: a leaf, nobody, or different leaves at different points.
-struct Owner {
-  static constexpr std::uint32_t nobody = ~std::uint32_t{0};
-  static constexpr std::uint32_t varies = nobody - 1;
-
-  std::uint32_t value = nobody;
-
-  /// Of two operands that are both true: the first in tree order. One that varies may come before the other or not.
-  static constexpr Owner first(Owner a, Owner b) {
-    if (a.value == nobody) return b;
-    if (b.value == nobody) return a;
-    if (a.value == varies || b.value == varies) return {varies};
-    return {std::min(a.value, b.value)};
-  }
-  friend constexpr bool operator==(Owner, Owner) = default;
-};
 
 /// One symbol of an expression in prefix order: a leaf, or an operation followed by its operands.
 struct Symbol {
@@ -33,20 +17,23 @@ struct Symbol {
 
   Kind kind = Kind::leaf;
   bool complemented = false;  ///< of a leaf: its points are outside
+  bool is_full = false;       ///< of an any_of: true everywhere; its operands matter to who owns its points
   std::uint32_t size = 1;     ///< symbols up to the end of its last operand, itself included
   LeafId leaf;                ///< none for operations
-  Owner owner;                ///< of an all_of: who owns its points among the operands that were folded away
+  Owner owner;  ///< of a leaf: itself, or nobody where it is complemented; of an operation: who owns its points among
+                ///< the operands that were folded away
 };
 
 /// A Boolean expression restricted to a region of space: operands that are constant there are folded away (RR-612 §3.2,
 /// the projection of a CSG tree, and the inside case, which it lacks).
 ///
 /// Complements stand at the leaves. Which leaf owns a point (its material fills the solid there) is kept for the
-/// operands that were folded away.
+/// operands that were folded away. A union that is true keeps the operands that may own points, if these are of another
+/// medium then.
 using LocalExpression = std::vector<Symbol>;
 
 /// The expression of the whole tree.
-LocalExpression whole_expression(const CsgTree& tree);
+LocalExpression whole_expression(const CsgTree& tree, const OwnerRanks& ranks = {});
 
 /// What is left of an expression in a smaller region: a constant and its owner, or an expression that varies.
 struct Folded {
@@ -58,6 +45,9 @@ struct Folded {
 /// Folds expressions; keeps its memory between calls.
 class Folder {
  public:
+  /// @param ranks  as whole_expression() was given; outlives it
+  explicit Folder(const OwnerRanks& ranks) : ranks_(ranks) {}
+
   /// @param region_of  region_of(LeafId) -> Region: where the smaller region lies with respect to a leaf. Not asked of
   ///                   leaves that no longer matter.
   /// @param result     what is left; empty where it is constant. Not the same as `expression`.
@@ -65,17 +55,21 @@ class Folder {
   Folded fold(std::span<const Symbol> expression, const RegionOf& region_of, LocalExpression& result);
 
  private:
+  // An operation whose operands are being seen.
   struct Frame {
     Symbol::Kind kind;
+    bool is_full;
     std::size_t input_end;
     std::size_t output_begin;  // of its own symbol
-    std::size_t operands;
-    Owner owner;
+    std::size_t operands;      // kept so far
+    Owner owner;               // among the operands that were folded away
+    Owner kept;                // the best that may be among the others
   };
-  bool take_constant(bool value, Owner owner);
+  bool take_constant(bool value, Owner owner, std::size_t& at, LocalExpression& result);
   bool settle_constant(Folded constant, std::size_t& at, LocalExpression& result);
   void finish_operation(LocalExpression& result);
 
+  const OwnerRanks& ranks_;
   std::vector<Frame> frames_;
 };
 
@@ -84,7 +78,7 @@ Folded Folder::fold(std::span<const Symbol> expression, const RegionOf& region_o
   result.clear();
   frames_.clear();
   // A frame around the whole, with one operand.
-  frames_.push_back({Symbol::Kind::all_of, expression.size(), 0, 0, {}});
+  frames_.push_back({Symbol::Kind::all_of, false, expression.size(), 0, 0, {}, {}});
   for (std::size_t at = 0;;) {
     Frame& frame = frames_.back();
     if (at == frame.input_end) {
@@ -93,27 +87,33 @@ Folded Folder::fold(std::span<const Symbol> expression, const RegionOf& region_o
         finish_operation(result);
         continue;
       }
-      if (settle_constant({true, frame.kind == Symbol::Kind::all_of, frame.owner}, at, result)) break;
+      const bool value = frame.kind == Symbol::Kind::all_of || frame.is_full;
+      if (settle_constant({true, value, frame.owner}, at, result)) break;
       continue;
     }
     const Symbol& s = expression[at];
     if (s.kind != Symbol::Kind::leaf) {
-      frames_.push_back({s.kind, at + s.size, result.size(), 0, s.owner});
+      frames_.push_back({s.kind, s.is_full, at + s.size, result.size(), 0, s.owner, {}});
       result.push_back(s);
       ++at;
       continue;
     }
     ++at;
+    if (frame.is_full && !(s.owner < frame.owner)) continue;
     const Region region = region_of(s.leaf);
     if (region == Region::straddles) {
+      if (frame.is_full && !ranks_.overrides(s.owner, frame.owner)) {
+        frame.owner = s.owner.or_worse();
+        continue;
+      }
       result.push_back(s);
       ++frame.operands;
+      frame.kept = std::min(frame.kept, s.owner);
       continue;
     }
     const bool inside = region == Region::inside;
-    const Owner owner = inside && !s.complemented ? Owner{s.leaf.get()} : Owner{};
-    if (!take_constant(inside != s.complemented, owner)) continue;
-    if (settle_constant({true, frame.kind == Symbol::Kind::any_of, frame.owner}, at, result)) break;
+    if (!take_constant(inside != s.complemented, inside ? s.owner : Owner{}, at, result)) continue;
+    if (settle_constant({true, false, {}}, at, result)) break;
   }
   result.clear();
   const Frame& whole = frames_.front();
@@ -134,14 +134,14 @@ PointValue evaluate_at(std::span<const Symbol> e, std::size_t& at, const Holds& 
   const Symbol& s = e[at++];
   if (s.kind == Symbol::Kind::leaf) {
     const bool inside = holds(s.leaf);
-    return {inside != s.complemented, inside && !s.complemented ? Owner{s.leaf.get()} : Owner{}};
+    return {inside != s.complemented, inside ? s.owner : Owner{}};
   }
   const bool all = s.kind == Symbol::Kind::all_of;
-  PointValue result{all, s.owner};
+  PointValue result{all || s.is_full, s.owner};
   for (const std::size_t end = at - 1 + s.size; at < end;) {
     const PointValue operand = evaluate_at(e, at, holds);
     result.value = all ? result.value && operand.value : result.value || operand.value;
-    if (operand.value) result.owner = Owner::first(result.owner, operand.owner);
+    if (operand.value) result.owner = std::min(result.owner, operand.owner);
   }
   return result;
 }

@@ -25,6 +25,15 @@ inline bool IsSound(const CellTree& cells, const Vec3& origin, double square) {
   return max_component(abs(origin)) <= cells.scale.far_origin && square >= 0x1p-200 && square <= 0x1p200;
 }
 
+/// The truth table by which the first boundary is found of a ray that comes into a cell of several media in a state.
+/// @param value  of the points there
+HWY_NOINLINE inline std::uint64_t TableFrom(const CellTree& cells, const Cell& cell, std::uint32_t state,
+                                            std::uint8_t& value) {
+  const ValueTable values = cells.values_of(cell);
+  value = static_cast<std::uint8_t>(values.value(state));
+  return values.states(value);
+}
+
 /// Follows rays ray by ray.
 class SingleTracer {
  public:
@@ -45,6 +54,14 @@ class SingleTracer {
     }
   }
 
+  /// Follows a ray through all its boundaries, the nearest first. See trace_all().
+  bool TraceAll(const RayQuery& query, TellBoundary tell, TraversalCounters& counters) {
+    query_ = &query;
+    const double square = dot(query.ray.direction, query.ray.direction);
+    if (!IsSound(cells_, query.ray.origin, square)) return false;
+    return !Begin(query.ray.origin, query.ray.direction, square) || WalkOn(tell, counters);
+  }
+
   /// What a boundary amounts to that plain arithmetic found: its t, its leaf and whether the ray enters that are known.
   /// The ray is the one that was begun last.
   void Finish(CellAnswer& answer) {
@@ -60,23 +77,22 @@ class SingleTracer {
     if (!(answer.t < query_->t_max)) answer.kind = CellAnswer::Kind::nothing;
   }
 
-  /// Begins a ray that is not traced here, for Finish() and FinishGroup().
+  /// Begins a ray that is not traced here, for Finish().
   void BeginKnown(const RayQuery& query) {
     query_ = &query;
     BeginScale(dot(query.ray.direction, query.ray.direction));
   }
 
-  /// The same where several faces are known to coincide.
-  void FinishGroup(const Cell& cell, CellAnswer& answer) {
-    answer.kind = CellAnswer::Kind::boundary;
-    if (wanted_ == Wanted::occlusion && answer.t + 2 * near_ < query_->t_max) return;
-    NeedExact();
-    const double before = std::max(answer.t - 2 * near_, 0.0), behind = answer.t + 2 * near_;
-    if (Ask(cell, before, behind, answer) != Outcome::met) {
-      answer.kind = CellAnswer::Kind::unsure;
-    } else if (!(answer.t < query_->t_max)) {
-      answer.kind = CellAnswer::Kind::nothing;
+  /// The same where several faces are known to coincide, about where and in which cell. Begins the ray.
+  void FinishGroup(const RayQuery& query, CellAnswer& answer) {
+    query_ = &query;
+    const Vec3 &o = query.ray.origin, &d = query.ray.direction;
+    Outcome outcome = Outcome::unsure;
+    if (Begin(o, d, dot(d, d))) {
+      const double t = answer.t - start_;
+      outcome = Meet(cells_.cells[answer.cell], std::max(t - 2 * near_, 0.0), t + 2 * near_, answer);
     }
+    if (outcome != Outcome::met) answer.kind = CellAnswer::Kind::unsure;
   }
 
  private:
@@ -149,17 +165,85 @@ class SingleTracer {
     counters.primitive_tests += tests_ + exact_.TakeTests();
   }
 
+  // Walk() for all boundaries.
+  bool WalkOn(TellBoundary tell, TraversalCounters& counters) {
+    NodeStack stack;
+    const BoxRay ray{
+        {&origin_[0], &origin_[1], &origin_[2]}, {&inverse_[0], &inverse_[1], &inverse_[2]}, t_end_, octant_};
+    stack.Open(cells_.nodes.front(), ray);
+    tests_ = 0;
+    passed_ = -std::numeric_limits<double>::infinity();
+    resolved_ = false;
+    Outcome outcome = Outcome::passed;
+    while (!stack.empty() && outcome == Outcome::passed) {
+      const auto [child, t_in, t_out] = stack.Pop();
+      if (!child.is_cell()) {
+        stack.Open(cells_.nodes[child.index()], ray);
+        continue;
+      }
+      ++counters.cells_visited;
+      CellAnswer answer;
+      while ((outcome = MeetNext(child.index(), t_in, t_out, answer)) == Outcome::met) {
+        if (answer.kind == CellAnswer::Kind::nothing || !tell(answer)) break;
+        passed_ = answer.t;
+      }
+    }
+    counters.primitive_tests += tests_ + exact_.TakeTests();
+    return outcome != Outcome::unsure;
+  }
+
+  // The next boundary in a cell behind the one that was passed last. Nothing that plain arithmetic was certain of has
+  // another within two resolutions. Whatever else was passed may, and is told from its neighbours by the classifier.
+  Outcome MeetNext(std::uint32_t index, double t_in, double t_out, CellAnswer& answer) {
+    const Cell& cell = cells_.cells[index];
+    answer = CellAnswer{};
+    answer.cell = index;
+    Outcome outcome = Outcome::passed;
+    if (resolved_ && t_in + start_ <= passed_ + 4 * near_) {
+      NeedExact();
+      outcome = exact_.Resolve(cell, std::max(t_in + start_, passed_), t_out + start_, answer);
+      const bool is_before_end = answer.t < query_->t_max;
+      answer.kind = is_before_end ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
+    } else {
+      const double from = std::max(t_in, passed_ + 0.5 * near_ - start_);
+      if (!(from <= t_out)) return Outcome::passed;
+      const bool resolved = std::exchange(resolved_, false);
+      outcome = Meet(cell, from, t_out, answer);
+      if (outcome == Outcome::passed) resolved_ = resolved;
+    }
+    if (outcome != Outcome::met) return outcome;
+    return answer.kind == CellAnswer::Kind::unsure || !(answer.t > passed_) ? Outcome::unsure : Outcome::met;
+  }
+
   void NeedExact() {
     if (exact_begun_) return;
     exact_.Begin(*query_, scale_, 0.5 * near_, together_);
     exact_begun_ = true;
   }
 
+  // Finish() for crossings that coincide, behind which the state is `after`.
+  HWY_NOINLINE void FinishGroup(const Cell& cell, const CrossingGroup& group, std::uint32_t after, CellAnswer& answer) {
+    answer.kind = CellAnswer::Kind::boundary;
+    if (wanted_ == Wanted::occlusion && answer.t + 2 * near_ < query_->t_max) return;
+    NeedExact();
+    if (!exact_.FinishGroup(cell, group, start_, after, wanted_ == Wanted::hit, answer)) {
+      const double before = std::max(answer.t - 2 * near_, 0.0), behind = answer.t + 2 * near_;
+      if (Ask(cell, before, behind, answer) != Outcome::met) {
+        answer.kind = CellAnswer::Kind::unsure;
+        return;
+      }
+    }
+    if (!(answer.t < query_->t_max)) answer.kind = CellAnswer::Kind::nothing;
+  }
+
   // What the exact arithmetic says of a cell. Here t is that of the query.
   HWY_NOINLINE Outcome Ask(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
     Outcome outcome = Outcome::unsure;
     if (!cell.extended) outcome = exact_.Meet(cell, t_in, t_out, wanted_ == Wanted::hit, answer);
-    if (outcome == Outcome::unsure) outcome = exact_.Resolve(cell, t_in, t_out, answer);
+    if (outcome == Outcome::unsure) {
+      outcome = exact_.Resolve(cell, t_in, t_out, answer);
+      resolved_ = outcome == Outcome::met;
+    }
     return outcome;
   }
 
@@ -198,7 +282,8 @@ class SingleTracer {
       state |= static_cast<std::uint32_t>(inside) << i;
       next[i] = inside ? leave[i] : enter[i] > t_in ? enter[i] : never;
     }
-    const std::uint64_t table = cell.table;
+    const bool has_several = cell.values == Cell::Values::several;
+    const std::uint64_t table = HWY_UNLIKELY(has_several) ? TableFrom(cells_, cell, state, answer.before) : cell.table;
     const std::uint64_t before = table >> state & 1;
     for (;;) {
       std::uint32_t first = 0;
@@ -226,7 +311,7 @@ class SingleTracer {
         const std::uint32_t after = group.after(state);
         if ((table >> after & 1) != before) {
           answer.t = t + start_;
-          FinishGroup(cell, answer);
+          FinishGroup(cell, group, after, answer);
           return Outcome::met;
         }
         group.skip(leave, next);
@@ -235,7 +320,12 @@ class SingleTracer {
       }
       answer.t = t + start_;
       answer.leaf_entering = (state >> first & 1) != 0;
-      answer.before = before != 0;
+      if (HWY_UNLIKELY(has_several)) {
+        answer.after = static_cast<std::uint8_t>(cells_.values_of(cell).value(state));
+      } else {
+        answer.before = static_cast<std::uint8_t>(before);
+        answer.after = static_cast<std::uint8_t>(before ^ 1);
+      }
       answer.surface = {cell.leaves[first], 0};
       Finish(answer);
       return Outcome::met;
@@ -268,6 +358,8 @@ class SingleTracer {
   double together_ = 0;
   RayScale scale_;
   bool exact_begun_ = false;
+  double passed_ = 0;      // the boundary that was passed last
+  bool resolved_ = false;  // the classifier found it
   float origin_[3] = {}, inverse_[3] = {};
   std::uint32_t octant_ = 0;  // bit a: backward along axis a
   float t_end_ = 0;

@@ -15,7 +15,8 @@ namespace tenon::cells {
 class SplitTrials {
  public:
   /// @param growth  boxes are classified grown by as much (CellScale)
-  SplitTrials(const LeafRegions& regions, double growth) : regions_(regions), growth_(growth) {}
+  SplitTrials(const LeafRegions& regions, const OwnerRanks& ranks, double growth)
+      : regions_(regions), growth_(growth), folder_(ranks) {}
 
   /// @param leaves  of the expression, in its order
   void prepare(const LocalExpression& expression, std::span<const LeafId> leaves, const Box3& box,

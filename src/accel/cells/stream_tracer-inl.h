@@ -115,6 +115,7 @@ class StreamTracer {
     for (LeafList& list : leaves_) list.count = 0;
     lanes_ = 0;
     most_leaves_ = 0;
+    has_more_bits_ = false;
     const std::size_t count = std::exchange(slots_waiting_, 0);
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint8_t slot = waiting_[k];
@@ -132,6 +133,7 @@ class StreamTracer {
       t_in_[lane] = s.t_in;
       t_out_[lane] = s.t_out;
       table_[lane] = cell.table;
+      if (HWY_UNLIKELY(cell.values == Cell::Values::several)) ListMoreBits(cell, lane);
       counters.primitive_tests += cell.leaf_count;
       most_leaves_ = std::max<std::uint32_t>(most_leaves_, cell.leaf_count);
       for (std::uint32_t i = 0; i < cell.leaf_count; ++i) {
@@ -157,6 +159,15 @@ class StreamTracer {
       }
     }
     std::fill_n(unsure_, most_slots, std::uint8_t{0});
+  }
+
+  HWY_NOINLINE void ListMoreBits(const Cell& cell, std::size_t lane) {
+    if (!has_more_bits_) {
+      for (auto& bits : more_bits_) std::fill_n(bits, most_slots, 0);
+    }
+    has_more_bits_ = true;
+    const ValueTable values = cells_.values_of(cell);
+    for (std::size_t b = 0; b < std::size(more_bits_); ++b) more_bits_[b][lane] = values.bits[b + 1].word;
   }
 
   void LeaveToOthers(std::uint8_t slot) {
@@ -263,15 +274,24 @@ class StreamTracer {
       walk.enter[i] = hn::Load(d, &enter_[i][at]);
       walk.leave[i] = hn::Load(d, &leave_[i][at]);
     }
-    walk.Follow(d, most_leaves_, lanes, hn::Load(u, &table_[at]), t_in, t_out, near,
-                hn::Mul(near, hn::Set(d, together_)));
+    const auto together = hn::Mul(near, hn::Set(d, together_));
+    const auto table = hn::Load(u, &table_[at]);
+    if (HWY_UNLIKELY(has_more_bits_)) {
+      const hn::Vec<U> tables[] = {table, hn::Load(u, &more_bits_[0][at]), hn::Load(u, &more_bits_[1][at])};
+      walk.Follow(d, most_leaves_, lanes, tables, t_in, t_out, near, together);
+    } else {
+      walk.Follow(d, most_leaves_, lanes, table, t_in, t_out, near, together);
+    }
     HWY_ALIGN double t[double_lanes];
     HWY_ALIGN std::uint64_t place[double_lanes];
     hn::Store(walk.t, d, t);
+    HWY_ALIGN std::uint64_t before[double_lanes];
+    HWY_ALIGN std::uint64_t behind[double_lanes];
     hn::Store(walk.place, u, place);
+    hn::Store(walk.before, u, before);
+    hn::Store(walk.behind, u, behind);
     const std::uint32_t unsure = RayBatch::Bits(walk.unsure), met = RayBatch::Bits(walk.met),
-                        enters = RayBatch::Bits(walk.enters), inside = RayBatch::Bits(walk.inside),
-                        crowded = RayBatch::Bits(walk.crowded);
+                        enters = RayBatch::Bits(walk.enters), crowded = RayBatch::Bits(walk.crowded);
     for (std::size_t lane = 0; lane < here; ++lane) {
       const std::uint8_t slot = slot_[at + lane];
       if (((unsure >> lane & 1) | unsure_[at + lane]) != 0) {
@@ -281,8 +301,8 @@ class StreamTracer {
         found_.t[i] = t[lane];
         found_.cell[i] = slots_[slot].index;
         found_.leaf[i] = cells_.cells[slots_[slot].index].leaves[static_cast<std::size_t>(place[lane])];
-        found_.flags[i] =
-            BatchFindings::flags_of((enters >> lane & 1) != 0, (inside >> lane & 1) != 0, (crowded >> lane & 1) != 0);
+        found_.flags[i] = BatchFindings::flags_of((enters >> lane & 1) != 0, (crowded >> lane & 1) != 0);
+        found_.values[i] = BatchFindings::values_of(before[lane], behind[lane]);
         Refill(slot);
       } else {
         Advance(slot);
@@ -321,6 +341,8 @@ class StreamTracer {
   std::uint32_t most_leaves_ = 0;
   std::uint8_t slot_[most_slots], ray_[most_slots], unsure_[most_slots];
   HWY_ALIGN std::uint64_t table_[most_slots];
+  bool has_more_bits_ = false;
+  HWY_ALIGN std::uint64_t more_bits_[ValueTable::bits_per_value - 1][most_slots];
   HWY_ALIGN double t_in_[most_slots];
   HWY_ALIGN double t_out_[most_slots];
   HWY_ALIGN double enter_[Cell::most_tabled][most_slots];

@@ -59,7 +59,8 @@ void Subdivider::restrict_to(const Box3& box, const SpacePart& whole, SpacePart&
 // Recursive, as deep as the limits on splitting allow.
 Subdivision::Built Subdivider::build(const SpacePart& part, std::size_t level) {
   if (part.leaves.size() <= Cell::most_tabled) {
-    return tabled_.subdivide(part.box, part.expression, part.depth, most_cells_, result_);
+    const auto built = tabled_.subdivide(part.box, part.expression, part.depth, most_cells_, result_);
+    if (built) return *built;
   }
   result_.depth = std::max(result_.depth, part.depth);
   const Box3 tight = tight_box(part);

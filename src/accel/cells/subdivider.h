@@ -27,7 +27,7 @@ struct SpacePart {
 class Subdivider {
  public:
   explicit Subdivider(const SubdivisionInput& input)
-      : input_(input), tabled_(input), trials_(input.regions, input.scale.growth) {}
+      : input_(input), tabled_(input), folder_(input.ranks), trials_(input.regions, input.ranks, input.scale.growth) {}
 
   /// Subdivides one part of space by itself.
   /// @param most_cells  when there are more, nothing is split any further

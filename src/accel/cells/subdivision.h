@@ -27,6 +27,7 @@ struct SubdivisionInput {
   const CellScale& scale;
   const LeafRecords& records;
   const LeafRegions& regions;
+  const OwnerRanks& ranks;
   BuildQuality quality;
 };
 

@@ -28,10 +28,10 @@ struct TableWalk {
   hn::Vec<D> enter[Cell::most_tabled], leave[Cell::most_tabled];
   hn::Mask<D> unsure;  ///< told by whoever fills in the above, too
 
-  hn::Mask<D> met;      ///< the value changes at t
-  hn::Mask<D> crowded;  ///< several faces coincide there
-  hn::Mask<D> enters;   ///< the ray enters the leaf that it meets
-  hn::Mask<D> inside;   ///< the solid, before
+  hn::Mask<D> met;            ///< the value changes at t
+  hn::Mask<D> crowded;        ///< several faces coincide there
+  hn::Mask<D> enters;         ///< the ray enters the leaf that it meets
+  hn::Vec<U> before, behind;  ///< the values of the points before and behind
   hn::Vec<D> t;
   hn::Vec<U> place;  ///< of the leaf that is met
 
@@ -42,6 +42,14 @@ struct TableWalk {
   /// @param near, together  crossings no further apart may be one boundary, or certainly are
   void Follow(D d, std::uint32_t count, hn::Mask<D> lanes, hn::Vec<U> table, hn::Vec<D> t_in, hn::Vec<D> t_out,
               hn::Vec<D> near, hn::Vec<D> together) {
+    const hn::Vec<U> tables[] = {table};
+    Follow(d, count, lanes, tables, t_in, t_out, near, together);
+  }
+
+  /// The same for values of several bits, each of which has its table.
+  template <std::size_t bits>
+  HWY_INLINE void Follow(D d, std::uint32_t count, hn::Mask<D> lanes, const hn::Vec<U> (&tables)[bits], hn::Vec<D> t_in,
+                         hn::Vec<D> t_out, hn::Vec<D> near, hn::Vec<D> together) {
     const U u;
     const auto nowhere = hn::Set(d, never);
     const auto one = hn::Set(u, 1);
@@ -54,8 +62,10 @@ struct TableWalk {
       next[i] = hn::IfThenElse(within, leave[i], ahead);
     }
     unsure = hn::And(unsure, lanes);
-    const auto before = hn::And(hn::Shr(table, state), one);
-    inside = hn::RebindMask(d, hn::Eq(before, one));
+    before = ValueOf(tables, state);
+    // Of values of several bits it is followed whether they are that one.
+    const auto table = bits > 1 ? StatesOf(tables, before) : tables[0];
+    const auto start = bits > 1 ? one : before;
     auto active = hn::AndNot(unsure, lanes);
     met = crowded = enters = hn::Lt(near, hn::Zero(d));  // none yet
     t = nowhere;
@@ -64,7 +74,7 @@ struct TableWalk {
       auto first = next[0];
       for (std::uint32_t i = 1; i < count; ++i) first = hn::Min(first, next[i]);
       active = hn::And(active, hn::Le(first, t_out));
-      if (hn::AllFalse(d, active)) return;
+      if (hn::AllFalse(d, active)) break;
       for (std::uint32_t i = count; i-- > 0;) {
         const auto crossed = hn::And(active, hn::Eq(next[i], first));
         const auto leaving = hn::Eq(leave[i], first);
@@ -74,13 +84,13 @@ struct TableWalk {
         enters = hn::Or(hn::AndNot(crossed, enters), hn::AndNot(leaving, crossed));
       }
       const auto value = hn::And(hn::Shr(table, state), one);
-      auto changed = hn::AndNot(hn::RebindMask(d, hn::Eq(value, before)), active);
+      auto changed = hn::AndNot(hn::RebindMask(d, hn::Eq(value, start)), active);
       if (hn::AllFalse(d, changed)) continue;
       if (count > 1) {
         const auto crowd = hn::AndNot(IsAlone(d, count, first, near), changed);
         if (!hn::AllFalse(d, crowd)) {
           hn::Mask<D> cancels, doubtful;
-          MeetGroup(d, count, first, near, together, crowd, table, before, state, next, cancels, doubtful);
+          MeetGroup(d, count, first, near, together, crowd, table, start, state, next, cancels, doubtful);
           unsure = hn::Or(unsure, doubtful);
           changed = hn::AndNot(hn::Or(cancels, doubtful), changed);
           active = hn::AndNot(doubtful, active);
@@ -91,9 +101,34 @@ struct TableWalk {
       met = hn::Or(met, changed);
       active = hn::AndNot(changed, active);
     }
+    behind = bits > 1 ? ValueOf(tables, state) : hn::Xor(before, one);
   }
 
  private:
+  template <std::size_t bits>
+  static HWY_INLINE hn::Vec<U> ValueOf(const hn::Vec<U> (&tables)[bits], hn::Vec<U> state) {
+    const U u;
+    auto value = hn::And(hn::Shr(tables[0], state), hn::Set(u, 1));
+    for (std::size_t b = 1; b < bits; ++b) {
+      const auto bit = hn::Set(u, std::uint64_t{1} << b);
+      const auto is_set = hn::Ne(hn::And(hn::Shr(tables[b], state), hn::Set(u, 1)), hn::Zero(u));
+      value = hn::Or(value, hn::IfThenElseZero(is_set, bit));
+    }
+    return value;
+  }
+
+  // The truth table of having a value.
+  template <std::size_t bits>
+  static HWY_INLINE hn::Vec<U> StatesOf(const hn::Vec<U> (&tables)[bits], hn::Vec<U> value) {
+    const U u;
+    auto states = hn::Set(u, TruthTable::always);
+    for (std::size_t b = 0; b < bits; ++b) {
+      const auto is_set = hn::Ne(hn::And(value, hn::Set(u, std::uint64_t{1} << b)), hn::Zero(u));
+      states = hn::And(states, hn::IfThenElse(is_set, tables[b], hn::Not(tables[b])));
+    }
+    return states;
+  }
+
   HWY_INLINE hn::Mask<D> IsAlone(D d, std::uint32_t count, hn::Vec<D> at, hn::Vec<D> near) const {
     const auto unit = hn::Set(d, 1.0);
     auto ends = hn::Zero(d);
@@ -107,7 +142,7 @@ struct TableWalk {
   // CrossingGroup for the lanes of `crowd`: those in which it is not certain, and those in which its faces cancel,
   // whose state is then that behind it.
   HWY_NOINLINE void MeetGroup(D d, std::uint32_t count, hn::Vec<D> at, hn::Vec<D> near, hn::Vec<D> together,
-                              hn::Mask<D> crowd, hn::Vec<U> table, hn::Vec<U> before, hn::Vec<U>& state,
+                              hn::Mask<D> crowd, hn::Vec<U> table, hn::Vec<U> start, hn::Vec<U>& state,
                               hn::Vec<D>* next, hn::Mask<D>& cancels, hn::Mask<D>& doubtful) const {
     const U u;
     doubtful = hn::Lt(near, hn::Zero(d));
@@ -125,7 +160,7 @@ struct TableWalk {
     }
     doubtful = hn::And(doubtful, crowd);
     const auto value = hn::And(hn::Shr(table, after), hn::Set(u, 1));
-    cancels = hn::AndNot(doubtful, hn::And(crowd, hn::RebindMask(d, hn::Eq(value, before))));
+    cancels = hn::AndNot(doubtful, hn::And(crowd, hn::RebindMask(d, hn::Eq(value, start))));
     state = hn::IfThenElse(hn::RebindMask(u, cancels), after, state);
     for (std::uint32_t i = 0; i < count; ++i) {
       next[i] = hn::IfThenElse(hn::And(cancels, entered[i]), leave[i], next[i]);

@@ -11,14 +11,14 @@
 
 namespace tenon::cells {
 
-Subdivision::Built TabledSubdivider::subdivide(const Box3& box, std::span<const Symbol> expression, int depth,
-                                               std::size_t most_cells, Subdivision& result) {
-  expression_.assign(expression);
+std::optional<Subdivision::Built> TabledSubdivider::subdivide(const Box3& box, std::span<const Symbol> expression,
+                                                              int depth, std::size_t most_cells, Subdivision& result) {
+  if (!expression_.assign(expression)) return std::nullopt;
   most_cells_ = most_cells;
   result_ = &result;
   FoldedTable rest{expression_.value, TruthTable::always, (1U << expression_.leaf_count) - 1};
   rest.drop_irrelevant();
-  if (rest.leaves == 0) return {};
+  if (rest.leaves == 0) return Subdivision::Built{};
   search_.assign(std::span(expression_.leaves).first(expression_.leaf_count));
   const Part whole = make_part(box, rest, depth);
   return whole.rest.leaves == 0 ? Subdivision::Built{} : build(whole);
@@ -85,13 +85,35 @@ ChildRef TabledSubdivider::add_cell(const Part& part) {
     cell.general |= record.kind() == RecordKind::general;
     ++cell.leaf_count;
   });
-  for (std::uint32_t state = 0; state < (1U << cell.leaf_count); ++state) {
+  // The values there are, numbered anew: two of them take one bit. That of the outside comes first.
+  const ValueTable& whole = part.rest.value;
+  std::array<std::uint32_t, std::size_t{1} << SplitSearch::most> values{};
+  std::uint32_t present = 0;
+  const std::uint32_t states = 1U << cell.leaf_count;
+  for (std::uint32_t state = 0; state < states; ++state) {
     std::uint32_t whole_state = 0;
     for_each_bit(state, [&](std::size_t i) { whole_state |= variables[i]; });
-    cell.table |= (part.rest.value.word >> whole_state & 1) << state;
+    values[state] = whole.value(whole_state);
+    present |= 1U << values[state];
   }
-  cell.owner = expression_.owner_in(part.rest.value.word & part.rest.possible).value;
-  return result_->store.add(cell);
+  ValueTable table;
+  for (std::uint32_t state = 0; state < states; ++state) {
+    table.set(std::uint64_t{1} << state,
+              static_cast<std::uint32_t>(std::popcount(present & ((1U << values[state]) - 1))));
+  }
+  cell.table = table.bits[0].word;
+  CellMedia media{.more_bits = {table.bits[1].word, table.bits[2].word}};
+  std::size_t count = 0;
+  for_each_bit(present, [&](std::size_t value) {
+    media.media[count] = expression_.media[value];
+    media.owners[count++] = expression_.owner_in(whole.states(static_cast<std::uint32_t>(value)) & part.rest.possible);
+  });
+  if (count == 2 && media.media[0] == medium_outside && media.media[1] == medium_opaque) {
+    cell.owner_or_media = media.owners[1].leaf.get();
+    return result_->store.add(cell);
+  }
+  cell.values = count == 2 ? Cell::Values::pair : Cell::Values::several;
+  return result_->store.add(cell, media);
 }
 
 }  // namespace tenon::cells

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "accel/cells/split_search.h"
@@ -14,11 +15,12 @@ namespace tenon::cells {
 class TabledSubdivider {
  public:
   explicit TabledSubdivider(const SubdivisionInput& input)
-      : input_(input), search_(input.regions, input.scale.growth, input.quality.beside) {}
+      : input_(input), expression_(input.ranks), search_(input.regions, input.scale.growth, input.quality.beside) {}
 
   /// @param most_cells  when `result` holds more, nothing is split any further
-  Subdivision::Built subdivide(const Box3& box, std::span<const Symbol> expression, int depth, std::size_t most_cells,
-                               Subdivision& result);
+  /// @return nothing where more media meet than a table can tell apart
+  std::optional<Subdivision::Built> subdivide(const Box3& box, std::span<const Symbol> expression, int depth,
+                                              std::size_t most_cells, Subdivision& result);
 
  private:
   struct Part {
