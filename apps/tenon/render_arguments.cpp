@@ -56,8 +56,8 @@ void RenderArguments::add_to(CLI::App& command) {
       "primitive_tests, cells_visited, next_box_calls and mailbox_hits (over all rays), per_kind (the same four for "
       "each\n"
       "kind of ray), boxes, depth (of the structure), seam_faults, paths_cut (by --depth), share_cut (of the light, "
-      "had\n"
-      "they met as much as others), and mismatches (null: a picture alone is compared with nothing).");
+      "as\n"
+      "it falls off along paths), and mismatches (null: a picture alone is compared with nothing).");
 }
 
 Result<RenderPlan> plan_render(const RenderArguments& arguments) {

@@ -59,7 +59,7 @@ void warn_of_depth(const DepthCut& cut, int depth, Diagnostics& diagnostics) {
   char text[240];
   std::snprintf(
       text, sizeof text,
-      "paths of more than %d surfaces may bring %.2g %% of the light, and %.2g %% around pixel %d,%d; take a larger "
+      "paths of more than %d surfaces would bring %.2g %% of the light, and %.2g %% around pixel %d,%d; take a larger "
       "--depth",
       depth, 100 * cut.share, 100 * cut.largest_share, (cut.tile.x0 + cut.tile.x1) / 2,
       (cut.tile.y0 + cut.tile.y1) / 2);

@@ -9,14 +9,20 @@
 
 namespace tenon {
 
-/// Paths that ended at the limit of their depth, and what they carried together of the light of one sample each.
+/// Paths that ended at the limit of their depth, and by what it is told how much light they would have met. Light is
+/// the mean of its components, added up over samples.
 struct CutPaths {
   std::uint64_t paths = 0;
-  double throughput = 0;
+  double throughput = 0;                     ///< that they carried: the light they meet times this reaches the camera
+  double light = 0;                          ///< of all paths
+  double earlier_light = 0, late_light = 0;  ///< from surfaces in the last but one and the last quarter of the depth
 
   CutPaths& operator+=(const CutPaths& o) {
     paths += o.paths;
     throughput += o.throughput;
+    light += o.light;
+    earlier_light += o.earlier_light;
+    late_light += o.late_light;
     return *this;
   }
 };

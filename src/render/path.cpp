@@ -50,6 +50,7 @@ void PathIntegrator::radiance(std::span<const RayQuery> primary, std::span<const
     for (std::uint32_t i = 0; i < vertices_.size(); ++i) groups_.add(hits[vertices_[i]], i);
     groups_.take_blocks([&](std::span<const std::uint32_t> block) { scatter(block, rays, hits, bounce); });
     trace_shadow_rays(light, context);
+    note_light(bounce, light);
     if (next_paths_.empty()) return;
     // Hits are kept where there are fewer of them for now: to make them takes time.
     if (next_hits_.size() < next_queries_.size()) next_hits_.resize(next_queries_.size());
@@ -62,6 +63,22 @@ void PathIntegrator::radiance(std::span<const RayQuery> primary, std::span<const
     rays = queries_;
     hits = met;
   }
+}
+
+// Only where paths are long; there few are left, and to add up takes no time beside tracing them.
+void PathIntegrator::note_light(int bounce, std::span<const Rgb> light) {
+  const int quarter = depth_ / 4;
+  const bool is_over = next_paths_.empty();
+  if (!is_over && bounce + 1 < depth_ - 2 * quarter) return;
+  double sum = 0;
+  for (const Rgb& l : light) sum += (l.r + l.g + l.b) / 3;
+  if (is_over) cut_.light += sum;
+  if (bounce >= depth_ - quarter) {
+    cut_.late_light += sum - noted_light_;
+  } else if (bounce >= depth_ - 2 * quarter) {
+    cut_.earlier_light += sum - noted_light_;
+  }
+  noted_light_ = sum;
 }
 
 // What comes from where the ray ends by itself. @return whether there is a surface for more to come from
@@ -201,7 +218,8 @@ void PathIntegrator::go_on(std::size_t i, const Hit& hit, int bounce) {
   // A path that carries little goes on seldom, and then carries more.
   if (bounce + 1 == depth_) {
     const double survival = largest(throughput) / growth;
-    cut_ += {survival > 0 ? 1U : 0U, survival};
+    cut_.paths += survival > 0 ? 1 : 0;
+    cut_.throughput += survival;
     return;
   }
   if (bounce >= certain_bounces) {

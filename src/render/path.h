@@ -84,6 +84,7 @@ class PathIntegrator final : public Integrator {
     Vec3Block next_direction;
   };
 
+  void note_light(int bounce, std::span<const Rgb> light);
   bool meet(Path& path, const RayQuery& query, const Hit& hit, Rgb& light) const;
   void draw(std::span<const SampleId> samples, int bounce);
   void scatter(std::span<const std::uint32_t> vertices, std::span<const RayQuery> rays, std::span<const Hit> hits,
@@ -115,6 +116,7 @@ class PathIntegrator final : public Integrator {
   std::vector<std::uint8_t> occluded_;
   PassedBoundaries passed_;
   CutPaths cut_;
+  double noted_light_ = 0;  // of all rays of a call, after a bounce
 };
 
 }  // namespace tenon

@@ -4,11 +4,11 @@
 #include <atomic>
 #include <cassert>
 #include <chrono>
-#include <cmath>
 #include <memory>
 #include <numeric>
 
 #include "render/noise.h"
+#include "render/tile_cut.h"
 #include "render/tile_worker.h"
 #include "render/tiles.h"
 #include "tenon/base/parallel_for.h"
@@ -40,7 +40,7 @@ class FilmWork {
       reached_.push_back(first_ + taken);
       settled_.push_back(0);
       expected_.push_back(0);
-      cut_.emplace_back();
+      cut_.push_back({tile, 0, {}});
       look_ahead(i);
       if (control.progress != nullptr) control.progress->before += tile.pixels() * taken;
     }
@@ -73,25 +73,7 @@ class FilmWork {
 
   double busy_seconds() const { return std::accumulate(busy_seconds_.begin(), busy_seconds_.end(), 0.0); }
 
-  DepthCut cut() const {
-    DepthCut cut;
-    double of_pixels = 0, pixels = 0;
-    for (std::size_t i = 0; i < tiles_.size(); ++i) {
-      const double of_tile = cut_[i].of_paths.throughput, n = static_cast<double>(cut_[i].samples);
-      cut.paths += cut_[i].of_paths.paths;
-      if (n == 0) continue;
-      const auto pixels_of_tile = static_cast<double>(tiles_[i].pixels());
-      of_pixels += pixels_of_tile * of_tile / n;
-      pixels += pixels_of_tile;
-      // A path carries no more than all: the variance of their sum is no larger than the sum.
-      const double share = (of_tile - 2 * std::sqrt(of_tile)) / n;
-      if (share <= cut.largest_share) continue;
-      cut.largest_share = share;
-      cut.tile = tiles_[i];
-    }
-    if (pixels > 0) cut.share = of_pixels / pixels;
-    return cut;
-  }
+  DepthCut cut() const { return depth_cut(cut_); }
 
   std::vector<SampleBox> done() const {
     std::vector<SampleBox> boxes;
@@ -129,7 +111,7 @@ class FilmWork {
     const PixelWindow tile = tiles_[i];
     const std::uint32_t end = round_end(reached_[i]);
     const std::uint64_t rays_before = worker.statistics().total().rays;
-    cut_[i].of_paths += worker.take(tile, reached_[i], end, film_);
+    cut_[i].paths += worker.take(tile, reached_[i], end, film_);
     cut_[i].samples += tile.pixels() * (end - reached_[i]);
     busy_seconds += thread_cpu_seconds() - begun;
     const std::uint64_t done = tile.pixels() * (end - reached_[i]);
@@ -177,12 +159,8 @@ class FilmWork {
   std::vector<char> settled_;            // by tile: it needs no more samples
   std::vector<std::uint32_t> expected_;  // by tile: samples from first_ on that it will have
   std::uint32_t least_ = 0;              // where the round began
-  struct TileCut {
-    CutPaths of_paths;
-    std::uint64_t samples = 0;
-  };
-  std::vector<TileCut> cut_;          // by tile
-  std::vector<double> busy_seconds_;  // by worker: CPU time of taking samples
+  std::vector<TileCut> cut_;             // by tile
+  std::vector<double> busy_seconds_;     // by worker: CPU time of taking samples
   Clock::time_point begun_ = Clock::now(), checkpoint_ = begun_;
 };
 

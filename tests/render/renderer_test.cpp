@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -9,6 +10,7 @@
 
 #include "render/analytic_accelerator.h"
 #include "render/noise.h"
+#include "render/tile_cut.h"
 #include "render/tiles.h"
 #include "support/random.h"
 
@@ -248,62 +250,55 @@ TEST(Renderer, CheckpointsHoldWhatTheySay) {
   EXPECT_EQ(checkpoints, 5);
 }
 
-// Between two floors without end no path finds a way out: each surface keeps half of the light.
-TEST(Renderer, DepthCutsWhatPathsStillCarry) {
-  Still still;
-  Material matt;
-  matt.kd = 0.5, matt.ks = 0;
-  matt.color = Rgba{1, 1, 1, 1};
-  still.scene.materials = {matt};
-  still.scene.camera.from = {0, 0, 0};
-  still.scene.camera.at = {1, 0, 0};
-  still.accelerator = AnalyticAccelerator(
-      {{AnalyticSlab{-2, -1}, MaterialId{0}, medium_opaque}, {AnalyticSlab{1, 2}, MaterialId{0}, medium_opaque}});
+// Between two floors without end no path finds a way out: each surface keeps half of the light, and adds as much again.
+struct TwoFloors : Still {
+  explicit TwoFloors(double emission) {
+    Material matt;
+    matt.kd = 0.5, matt.ks = 0, matt.emission = emission;
+    matt.color = Rgba{1, 1, 1, 1};
+    scene.materials = {matt};
+    scene.lights.clear();
+    scene.ambient = {};
+    scene.camera.from = {0, 0, 0};
+    scene.camera.at = {1, 0, 0};
+    accelerator = AnalyticAccelerator(
+        {{AnalyticSlab{-2, -1}, MaterialId{0}, medium_opaque}, {AnalyticSlab{1, 2}, MaterialId{0}, medium_opaque}});
+  }
+};
+
+TEST(Renderer, DepthCutsWhatLightWouldStillBring) {
+  const TwoFloors lit(1), dark(0);
   RenderOptions options = small();
   options.integrator = IntegratorKind::path;
-  for (const int depth : {1, 3}) {
-    options.depth = depth;
-    const DepthCut cut = still.render(options).cut;
-    EXPECT_EQ(cut.paths, 75U * 50U * 3U);
-    EXPECT_NEAR(cut.share, std::pow(0.5, depth), 1e-12);
-    // The smallest tile has 11 x 2 pixels, so there are fewer samples than that to be certain of it.
-    EXPECT_LT(cut.largest_share, cut.share);
-    EXPECT_GT(cut.largest_share, 0.75 * cut.share);
-    EXPECT_TRUE(cut.may_be_seen());
-  }
-  // Later surfaces are reached by chance, and with more.
-  options.depth = 6;
+  options.depth = 4;
+  // Up to the fourth surface nothing is left to chance; light is 1 + 1/2 + 1/4 + ...
+  const DepthCut cut = lit.render(options).cut;
+  EXPECT_EQ(cut.paths, 75U * 50U * 3U);
+  EXPECT_NEAR(cut.share, std::pow(0.5, 4), 1e-12);
+  EXPECT_GT(cut.largest_share, 0.5 * cut.share);
+  EXPECT_LT(cut.largest_share, cut.share);
+  EXPECT_TRUE(cut.may_be_seen());
+  // Later surfaces are reached by chance.
+  options.depth = 8;
   options.samples = 64;
-  EXPECT_NEAR(still.render(options).cut.share, std::pow(0.5, 6), 0.0007);
-  // Under an open sky nothing is cut.
-  still.accelerator = AnalyticAccelerator({{AnalyticSlab{-2, -1}, MaterialId{0}, medium_opaque}});
-  options.depth = 2;
-  const DepthCut none = still.render(options).cut;
-  EXPECT_EQ(none.paths, 0U);
-  EXPECT_FALSE(none.may_be_seen());
+  EXPECT_NEAR(lit.render(options).cut.share, std::pow(0.5, 8), 0.001);
+  EXPECT_FALSE(lit.render(options).cut.may_be_seen());
+  // Paths that never meet light are no loss, however long they are.
+  const DepthCut nothing = dark.render(options).cut;
+  EXPECT_GT(nothing.paths, 0U);
+  EXPECT_EQ(nothing.share, 0);
 }
 
-// A pixel counts as one, however many samples it needs. Half of the picture is sky, which needs few.
-TEST(Renderer, DepthCutsAShareOfThePictureNotOfTheSamples) {
-  Still still;
-  still.scene.camera.from = {0, 0, 0};
-  still.scene.camera.at = {1, 0, 0};
-  still.accelerator = AnalyticAccelerator({{AnalyticSlab{-2, -1}, MaterialId{0}, medium_opaque}});
-  Light lamp;
-  lamp.kind = LightKind::sphere;
-  lamp.position = {3, 0, 0.5};
-  lamp.radius = 0.4;
-  still.scene.lights = {lamp};
-  RenderOptions options = small();
-  options.integrator = IntegratorKind::path;
-  options.depth = 1;
-  options.samples = 64;
-  const double share = still.render(options).cut.share;
-  options.noise = 0.02;
-  const Rendering adaptive = still.render(options);
-  EXPECT_LT(adaptive.film.mean_samples(), 50);
-  EXPECT_GT(adaptive.film.mean_samples(), 20);
-  EXPECT_NEAR(adaptive.cut.share, share, 0.003);
+// A pixel counts as one, however many samples it needs: one tile has the light of paths that are cut, and 64 times the
+// samples of the other.
+TEST(DepthCut, IsAShareOfThePictureNotOfTheSamples) {
+  const TileCut cut{{0, 0, 16, 16}, 16384, {5000, 4000, 16384, 2000, 1000}};
+  const TileCut whole{{16, 0, 32, 16}, 256, {0, 0, 256, 0, 0}};
+  const DepthCut both = depth_cut(std::array{cut, whole});
+  // The next quarters bring 500, 250, ... of light.
+  EXPECT_NEAR(both.share, 1000.0 / 16384 / (2 + 1000.0 / 16384), 1e-12);
+  EXPECT_EQ(both.tile, cut.tile);
+  EXPECT_EQ(both.paths, 5000U);
 }
 
 TEST(Renderer, TransparentBackgroundIsNotThere) {

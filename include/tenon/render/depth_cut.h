@@ -6,13 +6,14 @@
 
 namespace tenon {
 
-/// What --depth has cut off of a picture by path tracing: paths that would have gone on.
+/// What --depth has cut off of a picture by path tracing: light that would have come along longer paths.
 ///
-/// How much light they would have brought nobody knows; what they carried of it, all surfaces before reckoned in, is
-/// the share of the light that is lost if they would have met as much as others do. Where light cannot come, as within
-/// a ball that reflects it totally on and on, nothing is.
+/// How much that is follows from how the light falls off from the last but one to the last quarter of the depth, as if
+/// it went on like that (Aitken's extrapolation). That paths still carry something says little: within a block of glass
+/// many are reflected totally for ever, and no light ever comes along them. Depths below 4 have no such quarters, and
+/// nothing is known of what they cut.
 struct DepthCut {
-  std::uint64_t paths = 0;
+  std::uint64_t paths = 0;   ///< that ended there
   double share = 0;          ///< of the picture's light, 0 to 1
   double largest_share = 0;  ///< of a tile's light, less two standard errors
   PixelWindow tile;          ///< that one
