@@ -1,5 +1,7 @@
 #include "tenon/film/film.h"
 
+#include <hwy/cache_control.h>
+
 #include <cassert>
 #include <cmath>
 #include <string_view>
@@ -63,6 +65,21 @@ Film::Film(int width, int height, const PixelWindow& window, const Layers& layer
 
 Film::Film(int width, int height, const PixelWindow& window, const Layers& layers, FilmPlanes planes)
     : width_(width), height_(height), window_(window), layers_(layers), planes_(std::move(planes)) {}
+
+void Film::fetch(const PixelWindow& pixels) const {
+  constexpr std::size_t cache_line = 64;  // bytes
+  for_each_sum([&](std::string_view, auto plane_of) {
+    const auto& plane = plane_of(planes_);
+    if (plane.empty()) return;
+    constexpr std::size_t step = std::max(cache_line / sizeof(plane[0]), std::size_t{1});
+    const auto length = static_cast<std::size_t>(pixels.width());
+    for (int y = pixels.y0; y < pixels.y1; ++y) {
+      const auto* row = &plane[window_.index(pixels.x0, y)];
+      for (std::size_t i = 0; i < length; i += step) hwy::Prefetch(row + i);
+      hwy::Prefetch(row + length - 1);
+    }
+  });
+}
 
 void Film::add(int x, int y, const FilmSample& sample) {
   const std::size_t i = window_.index(x, y);

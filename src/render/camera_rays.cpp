@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "render/primary_directions.h"
 #include "scene/camera_frame.h"
 
 namespace tenon {
@@ -72,11 +73,8 @@ Result<CameraRays> CameraRays::create(const Camera& camera, int width, int heigh
 }
 
 Ray CameraRays::ray(double x, double y) const {
-  // 2x - width is exact at pixel centres, so the two halves of the picture are mirror images to the last bit.
-  const double scale = view_.half_width / view_.width;
-  const Vec3 offset = ((2 * x - view_.width) * scale) * view_.right + ((view_.height - 2 * y) * scale) * view_.up;
-  if (view_.orthographic) return {view_.eye + offset, view_.forward};
-  return {view_.eye, normalize(view_.forward + offset)};
+  if (view_.orthographic) return {view_.eye + screen_offset(view_, x, y), view_.forward};
+  return {view_.eye, primary_direction(view_, x, y)};
 }
 
 Ray CameraRays::ray(double x, double y, double u, double v) const {

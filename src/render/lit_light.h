@@ -51,6 +51,9 @@ class LitLight {
   /// a uniform world, of which no direction is worth drawing.
   double importance(const Vec3& point) const { return even_importance_ ? *even_importance_ : importance_at(point); }
 
+  /// Whether its importance is the same at every point.
+  bool is_even() const { return even_importance_.has_value(); }
+
   /// Draws a direction to the light, by a place that only a light with extent has.
   /// @param sample  receives it
   /// @return false where none of it can be seen

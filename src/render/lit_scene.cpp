@@ -95,13 +95,12 @@ void LitScene::prepare_lights(const Scene& scene) {
     around_ = &lights_.back();
     ambient_light_.emplace(*environment);
   }
+  if (std::ranges::all_of(lights_, &LitLight::is_even)) even_importance_ = importance_of_all({});
   // A crossing lies within the tolerance of its face, divided by the slope, and so does the light's surface.
   if (scene.tree) margin_ = 2 * scene.tree->tolerance.distance;
 }
 
-Rgb LitScene::color(const Hit& hit) const {
-  const Prepared& material = prepared(hit.material);
-  if (material.texture.kind == TextureKind::none) return material.color;
+Rgb LitScene::textured_color(const Prepared& material, const Hit& hit) const {
   // What lies under the face, further than the error of its place: a face that coincides with one of the pattern is of
   // one colour.
   const double share = second_share(material.texture, hit.point - margin_ * hit.normal);
@@ -135,9 +134,15 @@ Rgb LitScene::beyond(const Vec3& direction, bool is_camera_ray, bool is_sharp) c
   return is_sharp ? background_ : ambient_;
 }
 
-LightChoice LitScene::choose_light(const Vec3& point, double choice) const {
+double LitScene::importance_of_all(const Vec3& point) const {
+  if (even_importance_) return *even_importance_;
   double total = 0;
   for (const LitLight& light : lights_) total += light.importance(point);
+  return total;
+}
+
+LightChoice LitScene::choose_light(const Vec3& point, double choice) const {
+  const double total = importance_of_all(point);
   if (!(total > 0)) return {};
   double rest = choice * total;
   LightChoice last;
@@ -152,14 +157,13 @@ LightChoice LitScene::choose_light(const Vec3& point, double choice) const {
 }
 
 double LitScene::choice_probability(const LitLight& light, const Vec3& point) const {
-  double total = 0;
-  for (const LitLight& other : lights_) total += other.importance(point);
+  const double total = importance_of_all(point);
   return total > 0 ? light.importance(point) / total : 0;
 }
 
-std::optional<std::pair<const LitLight*, LightHit>> LitScene::first_light(const Ray& ray, double t_max) const {
+std::optional<std::pair<const LitLight*, LightHit>> LitScene::first_of_light_surfaces(const Ray& ray,
+                                                                                      double t_max) const {
   std::optional<std::pair<const LitLight*, LightHit>> first;
-  if (!has_light_surfaces_) return first;
   double nearest = inf;
   for (const LitLight& light : lights_) {
     const auto hit = light.intersect(ray);
@@ -170,8 +174,7 @@ std::optional<std::pair<const LitLight*, LightHit>> LitScene::first_light(const 
   return first;
 }
 
-bool LitScene::is_blocked_by_light(const Ray& ray, double t_max, const LitLight* to) const {
-  if (!has_light_surfaces_) return false;
+bool LitScene::is_blocked_by_light_surface(const Ray& ray, double t_max, const LitLight* to) const {
   const double length_of_one = length(ray.direction);
   const Ray normal_ray{ray.origin, ray.direction / length_of_one};
   for (const LitLight& light : lights_) {

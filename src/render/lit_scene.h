@@ -45,7 +45,10 @@ class LitScene {
   const Reflectance& reflectance(MaterialId id) const { return prepared(id).reflectance; }
   const Surface& surface(MaterialId id) const { return prepared(id).surface; }
   /// The colour of the material where the hit is, linear.
-  Rgb color(const Hit& hit) const;
+  Rgb color(const Hit& hit) const {
+    const Prepared& material = prepared(hit.material);
+    return material.texture.kind == TextureKind::none ? material.color : textured_color(material, hit);
+  }
   /// What the surface sends out by itself.
   Rgb emitted(const Hit& hit) const {
     const double emission = prepared(hit.material).emission;
@@ -95,9 +98,14 @@ class LitScene {
   /// The nearest surface of a light that a ray meets.
   /// @param ray    of length 1
   /// @param t_max  light that lies in a solid's face there counts as before it
-  std::optional<std::pair<const LitLight*, LightHit>> first_light(const Ray& ray, double t_max) const;
+  std::optional<std::pair<const LitLight*, LightHit>> first_light(const Ray& ray, double t_max) const {
+    if (!has_light_surfaces_) return std::nullopt;
+    return first_of_light_surfaces(ray, t_max);
+  }
   /// Whether a light other than `to` stands in the way. The ray need not have length 1.
-  bool is_blocked_by_light(const Ray& ray, double t_max, const LitLight* to) const;
+  bool is_blocked_by_light(const Ray& ray, double t_max, const LitLight* to) const {
+    return has_light_surfaces_ && is_blocked_by_light_surface(ray, t_max, to);
+  }
   /// How far before a light's surface solids may lie that count as lying in it.
   /// @param cos  between the ray and the surface's normal
   double light_margin(double cos) const { return margin_ / cos; }
@@ -113,6 +121,10 @@ class LitScene {
   };
 
   Rgb attenuation_inside(MediumId medium, double length) const;
+  Rgb textured_color(const Prepared& material, const Hit& hit) const;
+  double importance_of_all(const Vec3& point) const;
+  std::optional<std::pair<const LitLight*, LightHit>> first_of_light_surfaces(const Ray& ray, double t_max) const;
+  bool is_blocked_by_light_surface(const Ray& ray, double t_max, const LitLight* to) const;
   const Prepared& prepared(MaterialId id) const { return materials_[id ? id.get() + 1 : 0]; }
   Prepared prepare(const Material& material);
   void prepare_lights(const Scene& scene);
@@ -121,6 +133,7 @@ class LitScene {
   std::vector<Medium> media_;
   bool has_unbent_ = false, has_transmission_ = false;
   std::vector<LitLight> lights_;
+  std::optional<double> even_importance_;  // of all lights, where it is the same at every point
   std::deque<Environment> environments_;
   const LitLight* around_ = nullptr;
   bool has_light_surfaces_ = false, draws_places_of_lights_ = false;

@@ -86,8 +86,9 @@ bool PathIntegrator::meet(Path& path, const RayQuery& query, const Hit& hit, Rgb
   const Vec3& d = query.ray.direction;
   const auto lamp = scene_.first_light(query.ray, hit.t);
   const MediumId medium = hit.found() ? hit.before : medium_outside;
-  if (medium > medium_opaque)
+  if (medium > medium_opaque) {
     path.throughput = path.throughput * scene_.attenuation(medium, lamp ? lamp->second.t : hit.t);
+  }
   if (lamp) {
     const auto& [met, place] = *lamp;
     light += weight_of_met_light(path, *met, place.density) * (path.throughput * place.radiance);
@@ -99,7 +100,7 @@ bool PathIntegrator::meet(Path& path, const RayQuery& query, const Hit& hit, Rgb
     light += share * (path.throughput * scene_.beyond(d, path.is_camera_ray, path.is_sharp));
     return false;
   }
-  light += path.throughput * scene_.emitted(hit);
+  if (const Rgb emitted = scene_.emitted(hit); emitted != Rgb{}) light += path.throughput * emitted;
   return true;
 }
 

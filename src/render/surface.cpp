@@ -64,10 +64,9 @@ void add_grey(Lobe& lobe, double weight, std::size_t size) {
 
 // What single scattering loses comes back with it, in its own directions (Turquin, "Practical multiple scattering
 // compensation for microfacet models", 2019).
-// @param f0     what it reflects straight on
-// @param table  of alpha, unless that is 0
+// @param f0  what it reflects straight on
 void add_conductor(const Vec3Block& wo, const RgbBlock& f0, const NumberBlock& share, double alpha,
-                   const AlbedoTable* table, Bsdf& bsdf) {
+                   AlbedoTables& tables, Bsdf& bsdf) {
   if (alpha == 0) {
     Lobe& lobe = bsdf.add(Lobe::Kind::mirror);
     for (std::size_t i = 0; i < bsdf.size(); ++i) {
@@ -79,7 +78,7 @@ void add_conductor(const Vec3Block& wo, const RgbBlock& f0, const NumberBlock& s
     return;
   }
   NumberBlock kept;
-  table->find(wo.z, bsdf.size(), kept);
+  tables.get(ScatteredPart::reflected_by_perfect_mirrors, alpha).find(wo.z, bsdf.size(), kept);
   Lobe& lobe = bsdf.add(Lobe::Kind::conductor, alpha);
   for (std::size_t i = 0; i < bsdf.size(); ++i) {
     const double lost_over_kept = 1 / kept[i] - 1;
@@ -113,11 +112,7 @@ Surface::Surface(const Material& material, AlbedoTables& tables)
       coat_(material.coat),
       coat_alpha_(alpha_of(material.coat_roughness)),
       ior_(material.ior),
-      tables_(tables) {
-  const bool has_conductor = model_ == MaterialModel::conductor || (model_ == MaterialModel::phong && ks_ > 0) ||
-                             (model_ == MaterialModel::principled && metallic_ > 0);
-  if (has_conductor && alpha_ > 0) conductor_ = &tables.get(ScatteredPart::reflected_by_perfect_mirrors, alpha_);
-}
+      tables_(tables) {}
 
 void Surface::scatter(const Vec3Block& wo, const RgbBlock& color, const Boundary& boundary, std::size_t count,
                       Bsdf& bsdf) const {
@@ -132,7 +127,7 @@ void Surface::add_lobes(const Points& at, const Boundary& boundary, Bsdf& bsdf) 
       return add_diffuse(at.color, same(1), bsdf);
     case MaterialModel::phong:
       add_diffuse(at.color, same(kd_), bsdf);
-      if (ks_ > 0) add_conductor(at.wo, {same(1), same(1), same(1)}, same(ks_), alpha_, conductor_, bsdf);
+      if (ks_ > 0) add_conductor(at.wo, {same(1), same(1), same(1)}, same(ks_), alpha_, tables_, bsdf);
       return;
     case MaterialModel::whitted:
       add_diffuse(at.color, same(kd_), bsdf);
@@ -145,7 +140,7 @@ void Surface::add_lobes(const Points& at, const Boundary& boundary, Bsdf& bsdf) 
       }
       return;
     case MaterialModel::conductor:
-      return add_conductor(at.wo, at.color, same(1), alpha_, conductor_, bsdf);
+      return add_conductor(at.wo, at.color, same(1), alpha_, tables_, bsdf);
     case MaterialModel::dielectric:
       return add_dielectric(at, same(1), boundary, bsdf);
     case MaterialModel::principled:
@@ -205,7 +200,7 @@ void Surface::add_principled(const Points& at, const Boundary& boundary, Bsdf& b
   }
   if (metallic_ > 0) {
     scale(rest, metallic_, share);
-    add_conductor(at.wo, at.color, share, alpha_, conductor_, bsdf);
+    add_conductor(at.wo, at.color, share, alpha_, tables_, bsdf);
   }
   scale(rest, 1 - metallic_, rest);
   if ((1 - metallic_) * transmission_ > 0) {

@@ -44,7 +44,6 @@ class Surface {
   double coat_, coat_alpha_;
   double ior_;
   AlbedoTables& tables_;
-  const AlbedoTable* conductor_ = nullptr;  // of alpha_
 };
 
 }  // namespace tenon

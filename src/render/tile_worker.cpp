@@ -4,6 +4,7 @@
 
 #include "render/path.h"
 #include "render/pixel_samples.h"
+#include "render/primary_directions.h"
 #include "render/whitted.h"
 
 namespace tenon {
@@ -49,6 +50,7 @@ TileWorker::TileWorker(const LitScene& scene, const SurfaceFeatures* features, c
       integrator_(make_integrator(scene, accelerator, options)) {}
 
 CutPaths TileWorker::take(const PixelWindow& tile, std::uint32_t first, std::uint32_t end, Film& film) {
+  film.fetch(tile);
   for (std::uint32_t index = first; index < end; ++index) {
     aim(tile, index);
     accelerator_.first_hits(queries_, hits_, *context_);
@@ -77,10 +79,25 @@ void TileWorker::aim(const PixelWindow& tile, std::uint32_t index) {
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     const SampleId& id = ids_[i];
     places_[i] = {id.x + in_pixel_[i].u, id.y + in_pixel_[i].v};
-    RayQuery& query = queries_[i];
-    query.ray = camera_.ray(places_[i].x, places_[i].y, on_lens_[i].u, on_lens_[i].v);
-    query.pixel_x = id.x;
-    query.pixel_y = id.y;
+    queries_[i].pixel_x = id.x;
+    queries_[i].pixel_y = id.y;
+  }
+  if (!camera_.has_lens() && !camera_.view().orthographic) return aim_from_eye();
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    queries_[i].ray = camera_.ray(places_[i].x, places_[i].y, on_lens_[i].u, on_lens_[i].v);
+  }
+}
+
+// CameraRays::ray() where all rays start at one point, a block of them together.
+void TileWorker::aim_from_eye() {
+  const ScreenView& view = camera_.view();
+  NumberBlock x{}, y{};
+  Vec3Block direction;
+  for (std::size_t begin = 0; begin < places_.size(); begin += block_size) {
+    const std::size_t count = std::min(block_size, places_.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) x[i] = places_[begin + i].x, y[i] = places_[begin + i].y;
+    find_primary_directions(view, x, y, count, direction);
+    for (std::size_t i = 0; i < count; ++i) queries_[begin + i].ray = {view.eye, direction[i]};
   }
 }
 

@@ -32,6 +32,7 @@ class TileWorker {
 
  private:
   void aim(const PixelWindow& tile, std::uint32_t index);
+  void aim_from_eye();
   void add(std::size_t i, Film& film);
   void look_through(const RayQuery& query, FilmSample& sample);
 

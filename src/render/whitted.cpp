@@ -78,8 +78,7 @@ void WhittedIntegrator::connect(std::span<const RayQuery> rays, std::span<const 
     for (const std::uint32_t i : surfaces_) {
       const IncidentLight incident = light.at(hits[i].point);
       if (incident.light == Rgb{}) continue;
-      const double toward = dot(nodes_[i].normal, incident.to_light);
-      if (!(toward > 0)) continue;
+      if (!(dot(nodes_[i].normal, incident.to_light) > 0)) continue;
       if (scene_.is_blocked_by_light({hits[i].point, incident.to_light}, incident.t_max, &light)) continue;
       // Part by part, where they stay: a copy of what was just put together waits for all of its parts.
       RayQuery& query = shadow_queries_.emplace_back();
@@ -90,28 +89,38 @@ void WhittedIntegrator::connect(std::span<const RayQuery> rays, std::span<const 
       query.from = &hits[i];
       ShadowRay& ray = shadow_rays_.emplace_back();
       ray.node = i;
-      ray.light = &light;
-      const double share = 1 / length(incident.to_light);
-      ray.to_light = share * incident.to_light;
-      ray.cos = share * toward;
       ray.incident = incident.light;
     }
   }
   find_shares(hits, context);
-  for (std::size_t k = 0; k < shadow_rays_.size(); ++k) {
+  for (std::uint32_t k = 0; k < shadow_rays_.size(); ++k) {
     if (shares_[k] == Rgb{}) continue;
+    const std::uint32_t node = shadow_rays_[k].node;
+    lit_.rays[lit_.count] = k;
+    lit_.normal.set(lit_.count, nodes_[node].normal);
+    lit_.to_light.set(lit_.count, shadow_queries_[k].ray.direction);
+    lit_.direction.set(lit_.count, rays[node].ray.direction);
+    if (++lit_.count == block_size) add_lit(hits);
+  }
+  add_lit(hits);
+}
+
+// What a block of shadow rays brings.
+void WhittedIntegrator::add_lit(std::span<const Hit> hits) {
+  find_light_angles(lit_.normal, lit_.to_light, lit_.direction, lit_.count, lit_.angles);
+  for (std::size_t i = 0; i < lit_.count; ++i) {
+    const std::uint32_t k = lit_.rays[i];
     const ShadowRay& ray = shadow_rays_[k];
     Node& node = nodes_[ray.node];
     const Reflectance& surface = scene_.reflectance(hits[ray.node].material);
-    Rgb factor = ray.cos * node.diffuse;
+    Rgb factor = lit_.angles.incidence[i] * node.diffuse;
     if (surface.specular > 0) {
-      const Vec3 half = ray.to_light - rays[ray.node].ray.direction;
-      const double cos = dot(node.normal, half) / length(half);
-      const double highlight = surface.specular * power(std::max(0.0, cos), surface.shininess);
+      const double highlight = surface.specular * power(std::max(0.0, lit_.angles.highlight[i]), surface.shininess);
       factor += Rgb{highlight, highlight, highlight};
     }
     node.local += shares_[k] * (ray.incident * factor);
   }
+  lit_.count = 0;
 }
 
 // How much of its light each shadow ray brings.
@@ -119,7 +128,7 @@ void WhittedIntegrator::find_shares(std::span<const Hit> hits, TraceContext& con
   shares_.resize(shadow_queries_.size());
   if (scene_.has_transmission()) {
     for (std::size_t k = 0; k < shares_.size(); ++k) {
-      shares_[k] = transmittance(shadow_queries_[k], shadow_rays_[k], hits[shadow_rays_[k].node], context);
+      shares_[k] = transmittance(shadow_queries_[k], hits[shadow_rays_[k].node], context);
     }
     return;
   }
@@ -137,17 +146,18 @@ double WhittedIntegrator::transmitted(const Hit& boundary, const Vec3& direction
 }
 
 // What reaches the hit: each boundary on the way lets kt through.
-Rgb WhittedIntegrator::transmittance(const RayQuery& query, const ShadowRay& ray, const Hit& hit,
-                                     TraceContext& context) {
+Rgb WhittedIntegrator::transmittance(const RayQuery& query, const Hit& hit, TraceContext& context) {
   passed_.clear();
+  const double distance = length(query.ray.direction);
+  const Vec3 to_light = 1 / distance * query.ray.direction;
   const auto stops = [&](const Hit& boundary) {
-    const double share = transmitted(boundary, ray.to_light);
+    const double share = transmitted(boundary, to_light);
     if (!(share > 0)) return true;
     passed_.add(boundary, {share, share, share});
     return false;
   };
   if (accelerator_.any_hit(query, stops, context)) return {};
-  return passed_.left(scene_, hit.before, length(query.ray.direction), query.t_max);
+  return passed_.left(scene_, hit.before, distance, query.t_max);
 }
 
 void WhittedIntegrator::branch(const Ray& ray, const Hit& hit, const Node& node) {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "render/integrator.h"
+#include "render/light_angles.h"
 #include "render/lit_scene.h"
 #include "render/passed_boundaries.h"
 #include "tenon/accel/accelerator.h"
@@ -57,16 +59,21 @@ class WhittedIntegrator final : public Integrator {
   };
   struct ShadowRay {
     std::uint32_t node = 0;
-    const LitLight* light = nullptr;
-    Vec3 to_light;   // length 1
-    double cos = 0;  // to the normal
     Rgb incident;
+  };
+  // Shadow rays that bring light.
+  struct LitBlock {
+    std::size_t count = 0;
+    std::array<std::uint32_t, block_size> rays;  // into shadow_rays_
+    Vec3Block normal, to_light, direction;
+    LightAngles angles;
   };
 
   void shade(std::span<const RayQuery> rays, std::span<const Hit> hits, std::span<Rgb> light);
   void connect(std::span<const RayQuery> rays, std::span<const Hit> hits, TraceContext& context);
+  void add_lit(std::span<const Hit> hits);
   void find_shares(std::span<const Hit> hits, TraceContext& context);
-  Rgb transmittance(const RayQuery& query, const ShadowRay& ray, const Hit& hit, TraceContext& context);
+  Rgb transmittance(const RayQuery& query, const Hit& hit, TraceContext& context);
   double transmitted(const Hit& boundary, const Vec3& direction) const;
   void branch(const Ray& ray, const Hit& hit, const Node& node);
   void push(const Hit& from, const Vec3& direction, RayKind kind, const Rgb& weight, const Node& node);
@@ -84,6 +91,7 @@ class WhittedIntegrator final : public Integrator {
   std::vector<RayQuery> shadow_queries_;
   std::vector<ShadowRay> shadow_rays_;
   std::vector<Rgb> shares_;
+  LitBlock lit_;
   std::vector<std::uint8_t> occluded_;
   PassedBoundaries passed_;
 };

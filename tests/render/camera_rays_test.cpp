@@ -7,6 +7,9 @@
 #include <limits>
 #include <numbers>
 
+#include "render/primary_directions.h"
+#include "support/instruction_sets.h"
+
 namespace tenon {
 namespace {
 
@@ -51,6 +54,20 @@ TEST(CameraRays, HalvesAreMirrorImages) {
     EXPECT_EQ(left.y, right.y);
     EXPECT_EQ(left.z, right.z);
   }
+}
+
+TEST(CameraRays, BlocksAreTheSameRaysOnEveryInstructionSet) {
+  const auto rays = CameraRays::create(looking({0.3, -7, 2}, {0, 0.1, 0}), 641, 123);
+  NumberBlock x{}, y{};
+  for (std::size_t i = 0; i < block_size; ++i)
+    x[i] = 10.1 * static_cast<double>(i), y[i] = 123 - 1.7 * static_cast<double>(i);
+  for_each_instruction_set([&] {
+    for (const std::size_t count : {std::size_t{1}, std::size_t{11}, block_size}) {
+      Vec3Block direction;
+      find_primary_directions(rays->view(), x, y, count, direction);
+      for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(direction[i], rays->ray(x[i], y[i]).direction) << i;
+    }
+  });
 }
 
 TEST(CameraRays, OrthographicCoversItsWidth) {

@@ -28,10 +28,12 @@ class ExactSum {
   }
 
   void add(double value) {
-    // Not clamp(): what compares false with everything is to end as 0.
-    const double bounded = value > 0 ? std::min(value, limit()) : value < 0 ? std::max(value, -limit()) : 0;
-    const double units = bounded * power_of_two(fraction_bits);
-    units_ += whole(units);
+    const double size = std::fabs(value);
+    // What compares false with everything is to end as 0.
+    const double bounded = size < limit() ? size : size >= limit() ? limit() : 0;
+    const Integer number = whole(bounded * power_of_two(fraction_bits));
+    const Integer sign = -static_cast<Integer>(value < 0);
+    units_ += (number ^ sign) - sign;
   }
   ExactSum& operator+=(const ExactSum& other) { return units_ += other.units_, *this; }
 
@@ -49,17 +51,25 @@ class ExactSum {
     return power;
   }
 
-  // The nearest whole number, ties to even; without branches, for nobody knows which way they would go. From 2^52 on
-  // every double is whole, and it is below 2^52 that the addition of 2^52 rounds.
+  // The nearest whole number, ties to even, of one that is not negative; without branches, for nobody knows which way
+  // they would go.
   static Integer whole(double units) {
-    const double size = std::fabs(units);
-    const double rounded = size < 0x1p52 ? (size + 0x1p52) - 0x1p52 : size;
-    const auto bits = std::bit_cast<std::uint64_t>(rounded);
-    const std::uint64_t significand = (bits & ((std::uint64_t{1} << 52U) - 1)) | std::uint64_t{1} << 52U;
-    const int shift = static_cast<int>(bits >> 52U) - 1075;  // of 0 it is so far below that nothing is left
-    const auto number = static_cast<Integer>(significand >> std::clamp(-shift, 0, 63)) << std::max(shift, 0);
-    const Integer sign = -static_cast<Integer>(units < 0);
-    return (number ^ sign) - sign;
+    if constexpr (sizeof(Integer) == 8) {
+      return static_cast<Integer>(whole_below_2_52(units));
+    } else {
+      // Digits of 32 bits, but for the highest: what is left after each is exact, so that only the last one rounds.
+      const auto high = static_cast<std::int64_t>(units * 0x1p-64);
+      const double rest = units - static_cast<double>(high) * 0x1p64;
+      const auto middle = static_cast<std::int64_t>(rest * 0x1p-32);
+      const std::uint64_t low = whole_below_2_52(rest - static_cast<double>(middle) * 0x1p32);
+      return (static_cast<Integer>(high) << 64) +
+             ((static_cast<std::uint64_t>(middle) << 32U) + static_cast<Integer>(low));
+    }
+  }
+
+  // The addition of 2^52 rounds to whole numbers, which then are its lowest bits.
+  static std::uint64_t whole_below_2_52(double units) {
+    return std::bit_cast<std::uint64_t>(units + 0x1p52) - std::bit_cast<std::uint64_t>(0x1p52);
   }
 
   Integer units_ = 0;

@@ -63,6 +63,8 @@ class Film {
   const Layers& layers() const { return layers_; }
   const FilmPlanes& planes() const { return planes_; }
 
+  /// Asks the memory for what is kept of some pixels, so that it is there by the time that samples of them are added.
+  void fetch(const PixelWindow& pixels) const;
   void add(int x, int y, const FilmSample& sample);
   /// Adds the samples of another film of the same picture, with the same layers, where the windows overlap.
   void add(const Film& part);
