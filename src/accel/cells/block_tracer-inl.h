@@ -11,8 +11,7 @@
 
 #include <bit>
 
-#include "accel/cells/batch_answers-inl.h"
-#include "accel/cells/table_walk-inl.h"
+#include "accel/cells/stream_tracer-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
@@ -24,8 +23,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// frustum culling by interval arithmetic); what is left are the cells that some of them may meet.
 class BlockTracer {
  public:
-  BlockTracer(const CellTree& cells, double tolerance, RayBatch& rays, BatchFindings& found)
-      : cells_(cells), tolerance_(tolerance), rays_(rays), found_(found) {}
+  /// @param streams  of the same batch
+  BlockTracer(const CellTree& cells, double tolerance, RayBatch& rays, BatchFindings& found, StreamTracer& streams)
+      : cells_(cells), tolerance_(tolerance), rays_(rays), found_(found), streams_(streams) {}
 
   /// Whether the rays make a block: they are of one kind and go into one octant, and nowhere near along its planes, and
   /// not far apart.
@@ -56,13 +56,13 @@ class BlockTracer {
 
   /// Traces them.
   /// @param any_will_do  whether any boundary ends a ray
-  /// @return the rays that are left to others, since too few share their cells
-  std::uint64_t Trace(bool any_will_do, TraversalCounters& counters) {
+  void Trace(bool any_will_do, TraversalStatistics& statistics) {
     any_will_do_ = any_will_do;
-    const bool pays = Walk();
+    statistics_ = &statistics;
+    Walk();
+    TraversalCounters& counters = statistics[rays_.queries[0].kind];
     counters.cells_visited += visited_;
     counters.primitive_tests += tests_;
-    return pays ? 0 : GiveUp();
   }
 
  private:
@@ -101,7 +101,7 @@ class BlockTracer {
   struct Entry {
     std::uint32_t child;
     float key;
-    std::array<float, 6> box;  // of a cell: ends nearest to the start by axis, then those furthest
+    std::array<float, 6> box;  // ends nearest to the start by axis, then those furthest
   };
 
   // Pushes the children that some ray may meet, the nearest last.
@@ -132,6 +132,7 @@ class BlockTracer {
     for (; met != 0; met &= met - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(met));
       if (node.children[lane].bits == ChildRef{}.bits) continue;
+      cells_.prefetch(node.children[lane]);
       Entry entry;
       entry.child = node.children[lane].bits;
       entry.key = t_in[lane];
@@ -147,16 +148,23 @@ class BlockTracer {
   }
 
   // A step of the block costs about what it costs to bring so many rays one cell further one by one. Rays whose ways
-  // lie apart share few cells, while the block opens all that lie between them. Both numbers are set by trial on the
-  // bench; they decide who traces a ray, never what comes of it.
+  // lie apart share few cells, while the block opens all that lie between them: then each node and cell is left to
+  // streams that few of the rays go through, as soon as they are many enough together. Blocks beside such a one seldom
+  // hold together longer. All these numbers are set by trial on the bench; they decide who traces a ray, never what
+  // comes of it.
   static constexpr std::uint64_t least_rays_a_step = 2;
   static constexpr std::uint64_t steps_of_grace = 48;
+  static constexpr std::size_t blocks_apart = 15;
+  static constexpr int least_together = 24;
+  static constexpr std::size_t least_waiting = 48;
 
-  // @return false when it was given up, since too few rays share its cells
-  bool Walk() {
+  void Walk() {
     visited_ = tests_ = 0;
     ShortenBlock();
-    if (longest_ < 0) return true;
+    if (longest_ < 0) return;
+    bool apart = apart_due_ > 0;
+    if (apart) --apart_due_;
+    waiting_.Clear();
     Entry* const stack = stack_.data();
     Entry* top = stack;
     Open(cells_.nodes.front(), top);
@@ -165,28 +173,40 @@ class BlockTracer {
       const Entry entry = *--top;
       // Every ray has its boundary by then.
       if (entry.key > longest_) continue;
-      if (++steps > steps_of_grace && visited_ < least_rays_a_step * (steps - steps_of_grace)) return false;
+      if (!apart && ++steps > steps_of_grace && visited_ < least_rays_a_step * (steps - steps_of_grace)) {
+        apart = true;
+        apart_due_ = blocks_apart;
+      }
       const ChildRef child{entry.child};
-      if (!child.is_cell()) {
+      if (!apart && !child.is_cell()) {
         Open(cells_.nodes[child.index()], top);
         continue;
       }
-      if (Visit(child.index(), entry)) ShortenBlock();
+      const std::uint64_t rays = FindWays(entry);
+      if (rays == 0) continue;
+      if (apart && std::popcount(rays) < least_together) {
+        LeaveToStreams(child, rays);
+        if (waiting_.total() >= least_waiting || !waiting_.has_room()) TraceStreams();
+      } else if (!child.is_cell()) {
+        Open(cells_.nodes[child.index()], top);
+      } else if (MeetCell(child.index(), rays)) {
+        ShortenBlock();
+      }
     }
-    return true;
+    if (waiting_.total() != 0) TraceStreams();
   }
 
-  // What was found so far need not be the first; where any boundary will do, and one was found for certain, it stands.
-  std::uint64_t GiveUp() {
-    std::uint64_t left = 0;
-    for (std::size_t i = 0; i < rays_.count; ++i) {
-      const bool is_known = (found_.unsure >> i & 1) != 0;
-      const bool is_done = rays_.box_end[i] < 0 && (any_will_do_ || found_.cell[i] == BatchFindings::none);
-      if (is_known || is_done) continue;
-      left |= std::uint64_t{1} << i;
-      found_.cell[i] = BatchFindings::none;
+  void LeaveToStreams(ChildRef child, std::uint64_t rays) {
+    for (; rays != 0; rays &= rays - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(rays));
+      waiting_.Add(i, {child, t_in_[i], t_out_[i]});
     }
-    return left;
+  }
+
+  HWY_NOINLINE void TraceStreams() {
+    streams_.Trace(waiting_.rays(), &waiting_, any_will_do_, *statistics_);
+    waiting_.Clear();
+    ShortenBlock();
   }
 
   void ShortenBlock() {
@@ -197,11 +217,10 @@ class BlockTracer {
     longest_ = hn::GetLane(hn::MaxOfLanes(f, longest));
   }
 
-  // @return whether some ray became shorter
-  bool Visit(std::uint32_t index, const Entry& entry) {
+  // Where each ray is in a box. @return the rays that meet it
+  std::uint64_t FindWays(const Entry& entry) {
     const F f;
-    const HalfF half;
-    bool shorter = false;
+    std::uint64_t rays = 0;
     for (std::size_t i = 0; i < rays_.padded; i += float_lanes) {
       auto near = hn::Zero(f), far = hn::Load(f, rays_.box_end + i);
       for (std::size_t a = 0; a < 3; ++a) {
@@ -209,27 +228,33 @@ class BlockTracer {
         near = hn::Max(near, hn::Mul(hn::Sub(hn::Set(f, entry.box[a]), origin), inverse));
         far = hn::Min(far, hn::Mul(hn::Sub(hn::Set(f, entry.box[3 + a]), origin), inverse));
       }
-      if (hn::AllFalse(f, hn::Le(near, far))) continue;
-      HWY_ALIGN float t_in[float_lanes];
-      HWY_ALIGN float t_out[float_lanes];
-      hn::Store(near, f, t_in);
-      hn::Store(far, f, t_out);
-      const D d;
-      for (std::size_t k = 0; k < float_lanes; k += double_lanes) {
-        const auto in = hn::PromoteTo(d, hn::Load(half, t_in + k)), out = hn::PromoteTo(d, hn::Load(half, t_out + k));
-        const auto lanes = hn::Le(in, out);
-        if (hn::AllFalse(d, lanes)) continue;
-        visited_ += hn::CountTrue(d, lanes);
-        shorter |= Meet(index, i + k, lanes, in, out);
-      }
+      hn::Store(near, f, t_in_ + i);
+      hn::Store(far, f, t_out_ + i);
+      std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(f, hn::Le(near, far), bits);
+      rays |= static_cast<std::uint64_t>(bits[0] | bits[1] << 8) << i;
+    }
+    return rays;
+  }
+
+  // @return whether some ray became shorter
+  bool MeetCell(std::uint32_t index, std::uint64_t rays) {
+    const D d;
+    const HalfF half;
+    bool shorter = false;
+    for (std::size_t i = 0; i < rays_.padded; i += double_lanes) {
+      if ((rays >> i & ((1U << double_lanes) - 1)) == 0) continue;
+      const auto in = hn::PromoteTo(d, hn::Load(half, t_in_ + i)), out = hn::PromoteTo(d, hn::Load(half, t_out_ + i));
+      const auto lanes = hn::Le(in, out);
+      visited_ += hn::CountTrue(d, lanes);
+      shorter |= Meet(index, i, lanes, in, out);
     }
     return shorter;
   }
 
   // Has rays traced no further. @return true, for they became shorter
   bool Drop(std::size_t at, std::uint32_t lanes) {
-    found_.unsure |= static_cast<std::uint64_t>(lanes) << at;
-    for (; lanes != 0; lanes &= lanes - 1) rays_.box_end[at + static_cast<std::size_t>(std::countr_zero(lanes))] = -1;
+    for (; lanes != 0; lanes &= lanes - 1) found_.Drop(rays_, at + static_cast<std::size_t>(std::countr_zero(lanes)));
     return true;
   }
 
@@ -271,29 +296,22 @@ class BlockTracer {
     const auto better = hn::And(walk.met, hn::Lt(walk.t, best));
     std::uint32_t bits = RayBatch::Bits(better);
     if (bits == 0) return shorter;
-    hn::Store(hn::IfThenElse(better, walk.t, best), d, &found_.t[at]);
+    HWY_ALIGN double t[double_lanes];
+    hn::Store(walk.t, d, t);
     HWY_ALIGN std::uint64_t place[double_lanes];
     HWY_ALIGN std::uint64_t before[double_lanes];
     HWY_ALIGN std::uint64_t behind[double_lanes];
     hn::Store(walk.place, u, place);
     hn::Store(walk.before, u, before);
     hn::Store(walk.behind, u, behind);
-    // Nothing behind the boundary counts; rounded up, for cells whose boxes overlap by the slack.
-    const HalfF f;
-    const auto end = hn::DemoteTo(f, hn::Mul(walk.t, hn::Set(d, 1 + 0x1p-20)));
-    HWY_ALIGN float ends[double_lanes];
-    hn::Store(end, f, ends);
     const std::uint32_t enter_bits = RayBatch::Bits(walk.enters), crowd_bits = RayBatch::Bits(walk.crowded);
     for (; bits != 0; bits &= bits - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-      const std::size_t i = at + lane;
-      found_.cell[i] = index;
-      found_.leaf[i] = cell.leaves[static_cast<std::size_t>(place[lane])];
-      const double certain = found_.t[i] + rays_.start[i] + 2 * rays_.near[i];
-      const bool is_done = any_will_do_ && certain < rays_.end[i];
-      rays_.box_end[i] = is_done ? -1 : std::min(rays_.box_end[i], ends[lane]);
-      found_.flags[i] = BatchFindings::flags_of((enter_bits >> lane & 1) != 0, (crowd_bits >> lane & 1) != 0);
-      found_.values[i] = BatchFindings::values_of(before[lane], behind[lane]);
+      found_.Keep(rays_, at + lane,
+                  {t[lane], index, cell.leaves[static_cast<std::size_t>(place[lane])],
+                   BatchFindings::flags_of((enter_bits >> lane & 1) != 0, (crowd_bits >> lane & 1) != 0),
+                   BatchFindings::values_of(before[lane], behind[lane])},
+                  any_will_do_);
     }
     return true;
   }
@@ -333,13 +351,19 @@ class BlockTracer {
   const double tolerance_;
   RayBatch& rays_;
   BatchFindings& found_;
+  StreamTracer& streams_;
+  TraversalStatistics* statistics_ = nullptr;
   bool any_will_do_ = false;
-  float longest_ = -1;  // of what is left of the rays
+  std::size_t apart_due_ = 0;  // blocks that are taken for apart from the start
+  float longest_ = -1;         // of what is left of the rays
   /// What holds those of all rays that are not done at the beginning.
   float low_origin_[3] = {}, high_origin_[3] = {}, low_inverse_[3] = {}, high_inverse_[3] = {};
   std::array<std::size_t, 3> backward_{};  // by axis: 1 where all directions are negative
   std::uint64_t visited_ = 0, tests_ = 0;
   std::array<Entry, most_pending> stack_;
+  WaitingVisits waiting_;
+  HWY_ALIGN float t_in_[RayBatch::most_rays];  // what FindWays() found
+  HWY_ALIGN float t_out_[RayBatch::most_rays];
 };
 
 }  // namespace HWY_NAMESPACE

@@ -32,10 +32,6 @@ HWY_INLINE void TraceOneByOne(SingleTracer& single, std::span<const RayQuery> qu
 
 // Fewer rays are sooner traced one by one (by trial on the bench).
 constexpr std::size_t least_batch = 8;
-// Where a block did not pay, those beside it seldom do: so many batches after it are streams at once (by trial on the
-// bench).
-constexpr std::size_t streams_after_block = 7;
-
 void CountRays(const RayBatch& rays, TraversalStatistics& statistics) {
   if (rays.one_kind) {
     statistics[rays.queries[0].kind].rays += rays.count;
@@ -50,11 +46,10 @@ HWY_NOINLINE void TraceInBatches(const CellTree& cells, double tolerance, Single
                                  std::span<const RayQuery> queries, const Sink& sink, TraversalStatistics& statistics) {
   RayBatch rays;
   BatchFindings found;
-  BlockTracer block(cells, tolerance, rays, found);
   StreamTracer stream(cells, tolerance, rays, found);
+  BlockTracer block(cells, tolerance, rays, found, stream);
   const BatchAnswers finisher(cells, tolerance / (2 * cells.scale.resolution), rays, found);
   constexpr bool any_will_do = Sink::wanted == Wanted::occlusion;
-  std::size_t streams_due = 0;
   for (std::size_t begin = 0; begin < queries.size(); begin += RayBatch::most_rays) {
     const std::size_t count = std::min(RayBatch::most_rays, queries.size() - begin);
     const std::size_t next = begin + count;
@@ -62,14 +57,11 @@ HWY_NOINLINE void TraceInBatches(const CellTree& cells, double tolerance, Single
                queries.subspan(next, std::min(RayBatch::most_rays, queries.size() - next)));
     CountRays(rays, statistics);
     found.Clear(rays);
-    const bool is_block = count >= least_batch && streams_due == 0 && block.Begin();
-    const std::uint64_t left = is_block ? block.Trace(any_will_do, statistics[queries[begin].kind]) : rays.in_scene();
-    if (is_block && left != 0) {
-      streams_due = streams_after_block;
-    } else if (streams_due > 0) {
-      --streams_due;
+    if (count >= least_batch && block.Begin()) {
+      block.Trace(any_will_do, statistics);
+    } else {
+      stream.Trace(rays.in_scene(), nullptr, any_will_do, statistics);
     }
-    if (left != 0) stream.Trace(left, statistics);
     finisher.Write(begin, sink, single, runs, statistics);
   }
 }

@@ -43,9 +43,11 @@ class NodeStack {
     --size_;
     return {ChildRef{child_[size_]}, t_in_[size_], t_out_[size_]};
   }
-  /// What is popped when nothing else is left.
-  void Push(ChildRef child) { child_[size_++] = child.bits; }
-
+  void Push(const Visit& visit) {
+    child_[size_] = visit.child.bits;
+    t_in_[size_] = visit.t_in;
+    t_out_[size_++] = visit.t_out;
+  }
   /// Pushes the children that the ray meets.
   HWY_INLINE void Open(const WideNode& node, const BoxRay& ray) {
     Opened opened;

@@ -12,8 +12,8 @@
 #include <bit>
 
 #include "accel/cells/batch_answers-inl.h"
-#include "accel/cells/node_stack-inl.h"
 #include "accel/cells/table_walk-inl.h"
+#include "accel/cells/waiting_visits-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
@@ -29,12 +29,17 @@ class StreamTracer {
       : cells_(cells), together_(tolerance / (2 * cells.scale.resolution)), rays_(rays), found_(found) {}
 
   /// Traces rays of the batch.
-  /// @param left  them, a bit each
-  void Trace(std::uint64_t left, TraversalStatistics& statistics) {
+  /// @param left     them, a bit each
+  /// @param waiting  where they are to go; none: through the whole scene
+  void Trace(std::uint64_t left, const WaitingVisits* waiting, bool any_will_do, TraversalStatistics& statistics) {
     left_ = left;
+    waiting_visits_ = waiting;
+    any_will_do_ = any_will_do;
     statistics_ = &statistics;
     slots_open_ = slots_waiting_ = 0;
-    for (std::uint8_t slot = 0; slot < most_slots; ++slot) Refill(slot);
+    for (std::uint8_t slot = 0; slot < most_slots; ++slot) {
+      if (Refill(slot)) Advance(slot);
+    }
     for (;;) {
       while (slots_open_ != 0) OpenNodes();
       if (slots_waiting_ == 0) break;
@@ -47,7 +52,7 @@ class StreamTracer {
   using U = hn::RebindToUnsigned<D>;
   static constexpr std::size_t double_lanes = RayBatch::double_lanes;
   // Rays under way. By trial on the bench; it decides nothing but how long they take.
-  static constexpr std::size_t most_slots = 16;
+  static constexpr std::size_t most_slots = 32;
   static constexpr std::uint32_t kinds = static_cast<std::uint32_t>(RecordKind::torus) + 1;
   static constexpr ChildRef end_of_stack{~std::uint32_t{0}};
 
@@ -58,22 +63,30 @@ class StreamTracer {
     float t_in, t_out;
   };
 
-  // Begins the next ray in a slot, if there is one.
-  void Refill(std::uint8_t slot) {
-    if (left_ == 0) return;
+  // Begins the next ray in a slot. @return whether there is one
+  bool Refill(std::uint8_t slot) {
+    if (left_ == 0) return false;
     const auto ray = static_cast<std::uint32_t>(std::countr_zero(left_));
     left_ &= left_ - 1;
     slots_[slot].ray = ray;
-    slots_[slot].index = 0;
-    stacks_[slot].Clear();
-    stacks_[slot].Push(end_of_stack);
-    open_[slots_open_++] = slot;
+    NodeStack& stack = stacks_[slot];
+    stack.Clear();
+    stack.Push({end_of_stack, 0, 0});
+    if (waiting_visits_ == nullptr) {
+      stack.Push({ChildRef::node(0), 0, 0});
+    } else {
+      for (const NodeStack::Visit& visit : waiting_visits_->of(ray)) stack.Push(visit);
+    }
+    return true;
   }
 
   // The next of a slot's stack: a node to open, or a cell to meet; or the slot's next ray.
   HWY_INLINE void Advance(std::uint8_t slot) {
-    const NodeStack::Visit visit = stacks_[slot].Pop();
-    if (visit.child.bits == end_of_stack.bits) return Refill(slot);
+    NodeStack::Visit visit = stacks_[slot].Pop();
+    if (visit.child.bits == end_of_stack.bits) {
+      if (!Refill(slot)) return;
+      visit = stacks_[slot].Pop();
+    }
     Slot& s = slots_[slot];
     const bool is_cell = visit.child.is_cell();
     s.index = visit.child.index();
@@ -171,8 +184,8 @@ class StreamTracer {
   }
 
   void LeaveToOthers(std::uint8_t slot) {
-    found_.unsure |= std::uint64_t{1} << slots_[slot].ray;
-    Refill(slot);
+    found_.Drop(rays_, slots_[slot].ray);
+    if (Refill(slot)) Advance(slot);
   }
 
   HWY_INLINE void MeetLeaves(RecordKind kind) {
@@ -298,12 +311,13 @@ class StreamTracer {
         LeaveToOthers(slot);
       } else if ((met >> lane & 1) != 0) {
         const std::size_t i = slots_[slot].ray;
-        found_.t[i] = t[lane];
-        found_.cell[i] = slots_[slot].index;
-        found_.leaf[i] = cells_.cells[slots_[slot].index].leaves[static_cast<std::size_t>(place[lane])];
-        found_.flags[i] = BatchFindings::flags_of((enters >> lane & 1) != 0, (crowded >> lane & 1) != 0);
-        found_.values[i] = BatchFindings::values_of(before[lane], behind[lane]);
-        Refill(slot);
+        const std::uint32_t index = slots_[slot].index;
+        found_.Keep(rays_, i,
+                    {t[lane], index, cells_.cells[index].leaves[static_cast<std::size_t>(place[lane])],
+                     BatchFindings::flags_of((enters >> lane & 1) != 0, (crowded >> lane & 1) != 0),
+                     BatchFindings::values_of(before[lane], behind[lane])},
+                    any_will_do_);
+        if (Refill(slot)) Advance(slot);
       } else {
         Advance(slot);
       }
@@ -329,6 +343,8 @@ class StreamTracer {
   RayBatch& rays_;
   BatchFindings& found_;
   std::uint64_t left_ = 0;
+  const WaitingVisits* waiting_visits_ = nullptr;
+  bool any_will_do_ = false;
   TraversalStatistics* statistics_ = nullptr;
 
   std::array<Slot, most_slots> slots_{};
