@@ -57,12 +57,12 @@ struct RenderCommand {
 void warn_of_depth(const DepthCut& cut, int depth, Diagnostics& diagnostics) {
   if (!cut.may_be_seen()) return;
   char text[240];
-  std::snprintf(
-      text, sizeof text,
-      "paths of more than %d surfaces would bring %.2g %% of the light, and %.2g %% around pixel %d,%d; take a larger "
-      "--depth",
-      depth, 100 * cut.share, 100 * cut.largest_share, (cut.tile.x0 + cut.tile.x1) / 2,
-      (cut.tile.y0 + cut.tile.y1) / 2);
+  std::snprintf(text, sizeof text,
+                "paths of more than %d surfaces would bring about %.2g %% of the light, and %.2g %% around pixel "
+                "%d,%d; take a larger "
+                "--depth",
+                depth, 100 * cut.share, 100 * cut.largest_share, (cut.tile.x0 + cut.tile.x1) / 2,
+                (cut.tile.y0 + cut.tile.y1) / 2);
   diagnostics.warn(text);
 }
 
