@@ -153,11 +153,18 @@ def figures_page(title, text, rows):
 
 
 def growth_page(rows):
-    kinds = kinds_of(rates(rows))
+    measured = rates(rows)
+    kinds = kinds_of(measured)
+    scenes = list(dict.fromkeys(scene for scene, _ in measured))
     lines = [
-        [scene, *(number(rates(rows)[scene, kind]["cells"]) for kind in kinds),
+        [scene, *(number(measured[scene, kind]["cells"]) for kind in kinds),
          number(figures(rows, "building cells")[scene]), number(figures(rows, "memory of it")[scene])]
-        for scene in dict.fromkeys(scene for scene, _ in rates(rows))
+        for scene in scenes
+    ]  # fmt: skip
+    begin, *later = [scene for scene in scenes if int(scene.split()[0]) >= 1000]
+    fall = [
+        [f"{scene}, {whose}", *(number(measured[begin, kind][name] / measured[scene, kind][name]) for kind in kinds)]
+        for scene in later for whose, name in (("Tenon", "cells"), ("Embree", "embree 16 bare balls"))
     ]  # fmt: skip
     return [
         "## Growth",
@@ -165,6 +172,10 @@ def growth_page(rows):
         "A box minus n spheres that take the same volume together: millions of rays a second, and what is built for them.",
         "",
         *table(["", *kinds, "building it, s", "memory, MiB"], lines),
+        f"How many times slower than with {begin}; beside it Embree's packets of 16 on the spheres alone, by the same rays,",
+        "without box and Boolean.",
+        "",
+        *table(["", *kinds], fall),
     ]
 
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "csg/csg_tree.h"
 #include "rays/measure.h"
 
 namespace tenon::bench {
@@ -145,6 +146,19 @@ class PacketTracer final : public Tracer {
 };
 
 }  // namespace
+
+std::vector<Ball> bare_balls(const Scene& scene) {
+  const CsgTree& tree = *scene.tree;
+  std::vector<Ball> balls;
+  for (const Leaf& leaf : tree.leaves) {
+    if (tree.primitives.kind(leaf.primitive).name != "sphere") continue;
+    const Vec3 half = 0.5 * leaf.bounds.size();
+    balls.push_back({leaf.bounds.center(), max_component(half)});
+  }
+  constexpr double most = 0.9;
+  if (static_cast<double>(balls.size()) < most * static_cast<double>(tree.leaves.size())) balls.clear();
+  return balls;
+}
 
 EmbreeScene::EmbreeScene(const TriangleMesh& mesh, bool filters)
     : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {

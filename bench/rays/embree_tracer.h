@@ -23,6 +23,9 @@ struct Ball {
   double radius = 1;
 };
 
+/// The scene's spheres without what is cut from them; none if it is made of much else.
+std::vector<Ball> bare_balls(const Scene& scene);
+
 /// Embree's tree over a mesh or over balls, built at RTC_BUILD_QUALITY_HIGH with RTC_SCENE_FLAG_ROBUST (rays miss no
 /// shared edge).
 class EmbreeScene {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <map>
 
-#include "csg/csg_tree.h"
 #include "rays/answers.h"
 #include "rays/embree_tracer.h"
 #include "rays/mesh.h"
@@ -11,20 +10,6 @@
 namespace tenon::bench {
 
 namespace {
-
-// The scene's spheres without what is cut from them, if it is made of little else.
-std::vector<Ball> bare_balls(const Scene& scene) {
-  const CsgTree& tree = *scene.tree;
-  std::vector<Ball> balls;
-  for (const Leaf& leaf : tree.leaves) {
-    if (tree.primitives.kind(leaf.primitive).name != "sphere") continue;
-    const Vec3 half = 0.5 * leaf.bounds.size();
-    balls.push_back({leaf.bounds.center(), max_component(half)});
-  }
-  constexpr double most = 0.9;
-  if (static_cast<double>(balls.size()) < most * static_cast<double>(tree.leaves.size())) balls.clear();
-  return balls;
-}
 
 // Ratios by what is compared, over the scenes.
 using Ratios = std::map<std::string, std::vector<double>>;
