@@ -21,6 +21,9 @@ inline constexpr int picture_width = 640, picture_height = 480;
 /// The six scenes that every contender traces.
 const std::vector<std::string>& scene_names();
 
+/// A scene of several media, for Tenon's structures alone.
+inline const std::string media_scene = "tumblers";
+
 /// Reads a scene file. `definitions` as `tenon -D`.
 Result<BenchScene> read_scene(const std::string& path,
                               const std::vector<std::pair<std::string, std::string>>& definitions = {});

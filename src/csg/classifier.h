@@ -83,8 +83,8 @@ struct Run {
 /// *Surfaces.* A surface never flips a bit. It shows where the root would differ between its bit set and cleared.
 ///
 /// *Media.* Where the source has media, the root's value is the medium of the leaf that owns the point: the one of
-/// highest priority, then the first in tree order, among the leaves that hold the point, are not subtracted and have
-/// every operation above them true. A MediumEvaluation has worked that out beforehand.
+/// highest priority, then the first in tree order, among the leaves that hold the point, are not subtracted nor taken
+/// from what is, and have every operation above them true. A MediumEvaluation has worked that out beforehand.
 template <LeafStates State, LeafSource Source>
 requires MediumEvaluation<State> ||(ExpressionEvaluation<State>&& MediumSource<Source>)class Classifier {
  public:

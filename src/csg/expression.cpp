@@ -8,6 +8,7 @@ namespace {
 struct Pending {
   CsgNodeId node;
   bool complemented;
+  bool subtracted;
   std::uint32_t parent;
 };
 
@@ -19,7 +20,7 @@ class Compiler {
 
   Expression run() {
     add_node(Kind::union_, Expression::none);
-    if (tree_.root) pending_.push_back({tree_.root, false, 0});
+    if (tree_.root) pending_.push_back({tree_.root, false, false, 0});
     while (!pending_.empty()) {
       const Pending next = pending_.back();
       pending_.pop_back();
@@ -44,11 +45,11 @@ class Compiler {
     const auto children = tree_.children_of(node);
     switch (node.operation) {
       case CsgOperation::leaf:
-        expression_.leaves[node.leaf.get()] = {p.parent, p.complemented};
+        expression_.leaves[node.leaf.get()] = {p.parent, p.complemented, p.subtracted};
         ++operand_count_[p.parent];
         return;
       case CsgOperation::complement:
-        pending_.push_back({children.front(), !p.complemented, p.parent});
+        attach_complement(p, children.front());
         return;
       case CsgOperation::union_:
       case CsgOperation::intersection:
@@ -63,7 +64,17 @@ class Compiler {
     // Pushed in reverse, so that the first operand is attached first.
     for (std::size_t i = children.size(); i-- > 0;) {
       const bool subtracted = node.operation == CsgOperation::difference && i > 0;
-      pending_.push_back({children[i], p.complemented != subtracted, parent});
+      pending_.push_back({children[i], p.complemented != subtracted, p.subtracted || subtracted, parent});
+    }
+  }
+
+  // The complement of a complement is what it was.
+  void attach_complement(const Pending& p, CsgNodeId child) {
+    const CsgNode& node = tree_[child];
+    if (node.operation == CsgOperation::complement) {
+      pending_.push_back({tree_.children_of(node).front(), p.complemented, p.subtracted, p.parent});
+    } else {
+      pending_.push_back({child, !p.complemented, true, p.parent});
     }
   }
 

@@ -21,6 +21,7 @@ struct Expression {
   struct LeafLink {
     std::uint32_t parent = none;
     bool complemented = false;
+    bool subtracted = false;  ///< some operation above takes it away, or what it is taken from: it owns nothing
   };
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
@@ -79,11 +80,11 @@ class ExpressionState {
     return value_ = becomes;
   }
 
-  /// Whether the point lies in the leaf, the leaf counts as material there (it is not subtracted), and every operation
-  /// above it is true: the first such leaf in tree order owns the point.
+  /// Whether the point lies in the leaf, the leaf counts as material there (it is not subtracted, nor taken from what
+  /// is), and every operation above it is true: the first such leaf in tree order owns the point.
   bool owns(LeafId leaf) const {
     const Expression::LeafLink link = expression_->leaves[leaf.get()];
-    if (link.complemented || !inside(leaf)) return false;
+    if (link.subtracted || !inside(leaf)) return false;
     for (std::uint32_t node = link.parent; node != Expression::none; node = expression_->nodes[node].parent) {
       const Expression::Node& n = expression_->nodes[node];
       const std::uint32_t count = counts_[node].stamp == stamp_ ? counts_[node].value : n.initial_count;

@@ -34,8 +34,8 @@ CsgTree made_of(CsgTree tree, const std::vector<Matter>& matters) {
 CsgTree random_media(Draw& draw, CsgTree tree, int media, int priorities) {
   std::vector<Matter> matters;
   for (std::size_t i = 0; i < tree.leaves.size(); ++i) {
-    matters.push_back(
-        {static_cast<MediumId>(medium_opaque + draw.below(media)), static_cast<double>(draw.below(priorities))});
+    matters.push_back({static_cast<MediumId>(medium_opaque + draw.below(media)),
+                       static_cast<double>(draw.below(priorities)), !draw.one_in(4)});
   }
   return made_of(std::move(tree), matters);
 }

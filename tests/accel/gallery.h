@@ -139,6 +139,27 @@ inline CsgTree media_scene(std::uint64_t seed, bool lattice) {
   return tree;
 }
 
+/// Bodies less tools that are cut themselves: what a tool leaves is the body's, of whichever medium the tools are.
+inline CsgTree media_tools_scene() {
+  Draw draw(23);
+  SceneBuilder b;
+  std::vector<SceneNodeId> parts;
+  for (int i = 0; i < 8; ++i) {
+    const std::vector<SceneNodeId> p = random_parts(draw, b, 3, 0.6, false);
+    const SceneNodeId tool = b.subtract({p[1], p[2]});
+    const SceneNodeId part = i % 2 == 0 ? b.subtract({p[0], tool}) : b.intersect({p[0], b.complement(tool)});
+    parts.push_back(b.translate(draw.vector(-1, 1), part));
+  }
+  CsgTree tree = b.tree(b.unite(parts));
+  tree.has_media = true;
+  for (Leaf& leaf : tree.leaves) {
+    leaf.medium = static_cast<MediumId>(1 + draw.below(4));
+    leaf.priority = draw.below(2);
+    if (!draw.one_in(3)) leaf.material = MaterialId{leaf.medium};
+  }
+  return tree;
+}
+
 /// Solids that occur often and are stored once: apart, through one another, cut by one another, mirrored, and, in one
 /// another, twice over.
 inline SceneNodeId repeated_node(SceneBuilder& b, std::uint64_t seed) {
@@ -304,6 +325,7 @@ inline constexpr Scene scenes[] = {
     {"same_place", same_place_scene},
     {"media", [] { return media_scene(9, false); }},
     {"media_lattice", [] { return media_scene(10, true); }},
+    {"media_tools", media_tools_scene},
     {"room", room_scene},
     {"outlines", outlines_scene},
     {"surfaces", surfaces_scene},

@@ -86,6 +86,23 @@ TEST(Expression, OwnershipGoesToTheMinuendAndNeverToTheTool) {
   EXPECT_TRUE(state.value());
   EXPECT_TRUE(state.owns(LeafId{0}));
   EXPECT_FALSE(state.owns(LeafId{1}));
+  EXPECT_FALSE(state.owns(LeafId{2})) << "what a tool leaves is the minuend's";
+}
+
+TEST(Expression, AComplementOwnsNothingUnlessItIsOneOfAComplement) {
+  TreeBuilder b;
+  const CsgNodeId a = b.leaf(), tool = b.leaf(), kept = b.leaf(), twice = b.leaf();
+  const CsgTree tree = b.finish(b.unite(
+      {b.intersect({a, b.complement(b.intersect({tool, b.complement(kept)}))}), b.complement(b.complement(twice))}));
+  const Expression expression = Expression::compile(tree);
+  ExpressionState state(expression);
+  state.reset();
+  for (std::size_t i = 0; i < 4; ++i) state.flip(LeafId{i});
+  EXPECT_TRUE(state.value());
+  EXPECT_TRUE(state.owns(LeafId{0}));
+  EXPECT_FALSE(state.owns(LeafId{1}));
+  EXPECT_FALSE(state.owns(LeafId{2}));
+  EXPECT_TRUE(state.owns(LeafId{3}));
 }
 
 }  // namespace

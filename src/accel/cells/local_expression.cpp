@@ -63,7 +63,7 @@ LocalExpression whole_expression(const CsgTree& tree, const OwnerRanks& ranks) {
     Symbol leaf;
     leaf.complemented = compiled.leaves[operand.index].complemented;
     leaf.leaf = LeafId{operand.index};
-    if (!leaf.complemented) leaf.owner = ranks.owner(leaf.leaf);
+    if (!compiled.leaves[operand.index].subtracted) leaf.owner = ranks.owner(leaf.leaf);
     result.push_back(leaf);
   }
   return result;

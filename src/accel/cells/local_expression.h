@@ -20,7 +20,7 @@ struct Symbol {
   bool is_full = false;       ///< of an any_of: true everywhere; its operands matter to who owns its points
   std::uint32_t size = 1;     ///< symbols up to the end of its last operand, itself included
   LeafId leaf;                ///< none for operations
-  Owner owner;  ///< of a leaf: itself, or nobody where it is complemented; of an operation: who owns its points among
+  Owner owner;  ///< of a leaf: itself, or nobody where it is subtracted; of an operation: who owns its points among
                 ///< the operands that were folded away
 };
 

@@ -64,7 +64,7 @@ void TabledExpression::claim(std::span<const Symbol> expression, std::size_t& at
   const Symbol& s = expression[place];
   const std::uint64_t states = above & words_[place];
   if (s.kind == Symbol::Kind::leaf) {
-    if (!s.complemented) claims.push_back({s.owner, states});
+    if (!s.owner.is_nobody()) claims.push_back({s.owner, states});
     return;
   }
   if (!s.owner.is_nobody()) claims.push_back({s.owner, states});
