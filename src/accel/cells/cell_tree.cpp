@@ -13,6 +13,12 @@ CellTree CellTree::build(const CsgTree& tree, const Box3& box, const BuildQualit
   result.scale = CellScale::of(tree);
   result.box = grown(box, 4 * result.scale.growth);
   result.center = result.box.center();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    result.frame.low[a] = result.box.lower[axis];
+    result.frame.high[a] = result.box.upper[axis];
+    result.frame.center[a] = result.center[axis];
+  }
   result.records = LeafRecords::of(tree, result.scale, result.center);
   result.shapes = PlacedShapes::of(tree, result.scale);
   result.ranks = OwnerRanks(tree);

@@ -2,6 +2,7 @@
 
 #include <hwy/cache_control.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -20,6 +21,10 @@ namespace tenon::cells {
 struct CellTree : CellStore {
   Vec3 center;
   Box3 box;  ///< of the whole solid, absolute
+  /// The same numbers, as vectors take them.
+  struct Frame {
+    alignas(32) std::array<double, 4> low{}, high{}, center{};
+  } frame;
   CellScale scale;
   HugePageVector<WideNode> nodes;
   LeafRecords records;

@@ -45,11 +45,10 @@ class SingleTracer {
   /// @param answer  as it is made
   void Trace(const RayQuery& query, CellAnswer& answer, TraversalCounters& counters) {
     query_ = &query;
-    const Vec3 &o = query.ray.origin, &d = query.ray.direction;
-    const double square = dot(d, d);
-    if (!IsSound(cells_, o, square)) {
+    const double square = dot(query.ray.direction, query.ray.direction);
+    if (!IsSound(cells_, query.ray.origin, square)) {
       answer.kind = CellAnswer::Kind::unsure;
-    } else if (Begin(o, d, square)) {
+    } else if (Begin(square)) {
       Walk(answer, counters);
     }
   }
@@ -59,7 +58,7 @@ class SingleTracer {
     query_ = &query;
     const double square = dot(query.ray.direction, query.ray.direction);
     if (!IsSound(cells_, query.ray.origin, square)) return false;
-    return !Begin(query.ray.origin, query.ray.direction, square) || WalkOn(tell, counters);
+    return !Begin(square) || WalkOn(tell, counters);
   }
 
   /// What a boundary amounts to that plain arithmetic found: its t, its leaf and whether the ray enters that are known.
@@ -86,9 +85,8 @@ class SingleTracer {
   /// The same where several faces are known to coincide, about where and in which cell. Begins the ray.
   void FinishGroup(const RayQuery& query, CellAnswer& answer) {
     query_ = &query;
-    const Vec3 &o = query.ray.origin, &d = query.ray.direction;
     Outcome outcome = Outcome::unsure;
-    if (Begin(o, d, dot(d, d))) {
+    if (Begin(dot(query.ray.direction, query.ray.direction))) {
       const double t = answer.t - start_;
       outcome = Meet(cells_.cells[answer.cell], std::max(t - 2 * near_, 0.0), t + 2 * near_, answer);
     }
@@ -96,40 +94,62 @@ class SingleTracer {
   }
 
  private:
-  bool Begin(const Vec3& o, const Vec3& d, double square) {
-    // Where the line is in the scene's box.
-    double near = 0, far = query_->t_max;
-    Vec3 slowness;
-    bool flat = false;
-    octant_ = 0;
+  // Where the line is in the scene's box, all axes at once where a vector has room for them; of what stands in the
+  // fourth place nothing is asked.
+  bool Begin(double square) {
+    using Axes = hn::CappedTag<double, 4>;
+    const Axes axes;
+    const hn::Rebind<float, Axes> floats;
     BeginScale(square);
-    const double least = cells_.records.least_slope * scale_.length;
-    for (int axis = 0; axis < 3; ++axis) {
-      constexpr double most = 0x1p100;
-      const double inverse = std::clamp(1 / d[axis], -most, most);
-      slowness[axis] = inverse;
-      flat |= std::fabs(d[axis]) <= least;
-      const double a = (cells_.box.lower[axis] - o[axis]) * inverse, b = (cells_.box.upper[axis] - o[axis]) * inverse;
-      near = std::max(near, std::min(a, b));
-      far = std::min(far, std::max(a, b));
-      inverse_[axis] = static_cast<float>(inverse);
-      octant_ |= static_cast<std::uint32_t>(inverse < 0) << axis;
+    const double* const o = &query_->ray.origin.x;
+    const double* const d = &query_->ray.direction.x;
+    const auto most = hn::Set(axes, 0x1p100);
+    const auto least = hn::Set(axes, cells_.records.least_slope * scale_.length);
+    HWY_ALIGN double in[4];
+    HWY_ALIGN double out[4];
+    HWY_ALIGN double slowness[4];
+    HWY_ALIGN double from[4];
+    std::uint32_t flat = 0, backward = 0;
+    for (std::size_t a = 0; a < 4; a += hn::MaxLanes(axes)) {
+      const auto origin = hn::LoadU(axes, o + a), direction = hn::LoadU(axes, d + a);
+      const auto inverse = hn::Max(hn::Min(hn::Div(hn::Set(axes, 1.0), direction), most), hn::Neg(most));
+      const auto to_low = hn::Mul(hn::Sub(hn::Load(axes, &cells_.frame.low[a]), origin), inverse);
+      const auto to_high = hn::Mul(hn::Sub(hn::Load(axes, &cells_.frame.high[a]), origin), inverse);
+      hn::Store(hn::Min(to_low, to_high), axes, in + a);
+      hn::Store(hn::Max(to_low, to_high), axes, out + a);
+      hn::Store(inverse, axes, slowness + a);
+      hn::Store(hn::DemoteTo(floats, inverse), floats, inverse_ + a);
+      flat |= MaskOf(axes, hn::Le(hn::Abs(direction), least)) << a;
+      backward |= MaskOf(axes, hn::Lt(inverse, hn::Zero(axes))) << a;
     }
+    const double near = std::max({0.0, in[0], in[1], in[2]}), far = std::min({query_->t_max, out[0], out[1], out[2]});
     if (!(near <= far)) return false;
     start_ = near;
+    octant_ = backward & 7;
     // Rounded up; the slack of the boxes covers half an ulp, not what lies behind t_max.
     t_end_ = static_cast<float>((far - near) * (1 + 0x1p-20));
-    const Vec3 from = o - cells_.center + near * d;
-    for (int axis = 0; axis < 3; ++axis) origin_[axis] = static_cast<float>(from[axis]);
+    for (std::size_t a = 0; a < 4; a += hn::MaxLanes(axes)) {
+      const auto to_center = hn::Sub(hn::LoadU(axes, o + a), hn::Load(axes, &cells_.frame.center[a]));
+      const auto place = hn::Add(to_center, hn::Mul(hn::Set(axes, near), hn::LoadU(axes, d + a)));
+      hn::Store(place, axes, from + a);
+      hn::Store(hn::DemoteTo(floats, place), floats, origin_ + a);
+    }
     const One one;
-    ray_.origin = {hn::Set(one, from.x), hn::Set(one, from.y), hn::Set(one, from.z)};
-    ray_.direction = {hn::Set(one, d.x), hn::Set(one, d.y), hn::Set(one, d.z)};
-    ray_.slowness = {hn::Set(one, slowness.x), hn::Set(one, slowness.y), hn::Set(one, slowness.z)};
+    ray_.origin = {hn::Set(one, from[0]), hn::Set(one, from[1]), hn::Set(one, from[2])};
+    ray_.direction = {hn::Set(one, d[0]), hn::Set(one, d[1]), hn::Set(one, d[2])};
+    ray_.slowness = {hn::Set(one, slowness[0]), hn::Set(one, slowness[1]), hn::Set(one, slowness[2])};
     ray_.inverse_square = hn::Set(one, scale_.inverse_square);
     ray_.length = hn::Set(one, scale_.length);
     ray_.near = hn::Set(one, near_);
-    ray_.flat = flat;
+    ray_.flat = (flat & 7) != 0;
     return true;
+  }
+
+  template <class Lanes>
+  static HWY_INLINE std::uint32_t MaskOf(Lanes d, hn::Mask<Lanes> mask) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, mask, bits);
+    return bits[0];
   }
 
   void BeginScale(double square) {
@@ -360,7 +380,8 @@ class SingleTracer {
   bool exact_begun_ = false;
   double passed_ = 0;      // the boundary that was passed last
   bool resolved_ = false;  // the classifier found it
-  float origin_[3] = {}, inverse_[3] = {};
+  HWY_ALIGN float origin_[4] = {};
+  HWY_ALIGN float inverse_[4] = {};
   std::uint32_t octant_ = 0;  // bit a: backward along axis a
   float t_end_ = 0;
   SceneRays<One> ray_;
