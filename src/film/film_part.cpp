@@ -50,10 +50,10 @@ void put_word(ExactSum<Integer, bits>& sum, std::size_t i, std::uint32_t word) {
 }
 
 template <class T>
-void write_plane(std::string_view name, const std::vector<T>& plane, Picture& picture) {
+void write_plane(std::string_view name, const FilmPlanes::Plane<T>& plane, Picture& picture) {
   if (plane.empty()) return;
   if constexpr (std::is_same_v<T, float>) {
-    picture.channels.push_back({channel_name(name, 0), ChannelType::float32, plane, {}});
+    picture.channels.push_back({channel_name(name, 0), ChannelType::float32, {plane.begin(), plane.end()}, {}});
   } else {
     for (std::size_t i = 0; i < words_of<T>; ++i) {
       std::vector<std::uint32_t> numbers(plane.size());
@@ -65,11 +65,11 @@ void write_plane(std::string_view name, const std::vector<T>& plane, Picture& pi
 
 // False where the picture lacks some of the plane's words. A picture that has none of them has no such plane.
 template <class T>
-bool read_plane(std::string_view name, const Picture& picture, std::vector<T>& plane) {
+bool read_plane(std::string_view name, const Picture& picture, FilmPlanes::Plane<T>& plane) {
   const PictureChannel* channel = picture.find(channel_name(name, 0));
   if (channel == nullptr) return true;
   if constexpr (std::is_same_v<T, float>) {
-    plane = channel->values;
+    plane.assign(channel->values.begin(), channel->values.end());
     return plane.size() == picture.window.pixels();
   } else {
     plane.resize(picture.window.pixels());

@@ -58,7 +58,7 @@ class PictureMaker {
   }
 
   template <class Sum>
-  void add_mean(const char* name, const std::vector<Sum>& sums, ChannelType type) {
+  void add_mean(const char* name, const FilmPlanes::Plane<Sum>& sums, ChannelType type) {
     std::vector<float>& values = channel(name, type).values;
     values.resize(sums.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -70,11 +70,11 @@ class PictureMaker {
   void add_means(const std::array<const char*, 3>& names, const FilmPlanes::Three<Sum>& sums, ChannelType type) {
     for (std::size_t c = 0; c < 3; ++c) add_mean(names[c], sums[c], type);
   }
-  void add_values(const char* name, const std::vector<float>& values) {
-    channel(name, ChannelType::float32).values = values;
+  void add_values(const char* name, const FilmPlanes::Plane<float>& values) {
+    channel(name, ChannelType::float32).values.assign(values.begin(), values.end());
   }
-  void add_numbers(const char* name, const std::vector<std::uint32_t>& numbers) {
-    channel(name, ChannelType::uint32).numbers = numbers;
+  void add_numbers(const char* name, const FilmPlanes::Plane<std::uint32_t>& numbers) {
+    channel(name, ChannelType::uint32).numbers.assign(numbers.begin(), numbers.end());
   }
 
   void add_variance() {

@@ -1,4 +1,4 @@
-#include "base/huge_pages.h"
+#include "tenon/base/huge_pages.h"
 
 #include <gtest/gtest.h>
 

@@ -2,34 +2,37 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
+#include "tenon/base/huge_pages.h"
 #include "tenon/film/exact_sum.h"
 
 namespace tenon {
 
 /// What a film keeps of its pixels: a plane holds one number for each pixel of the window, row by row, and is empty
-/// where the film's layers do not ask for it.
+/// where the film's layers do not ask for it. On large pages a picture of one sample a pixel is not held up by the
+/// system, which else has to find and clear thousands of small ones.
 struct FilmPlanes {
   template <class T>
-  using Three = std::array<std::vector<T>, 3>;
+  using Plane = HugePageVector<T>;
+  template <class T>
+  using Three = std::array<Plane<T>, 3>;
 
   // Sums over the samples.
-  std::vector<std::uint32_t> samples;
+  Plane<std::uint32_t> samples;
   Three<WideSum> light;
-  std::vector<ShareSum> alpha;
+  Plane<ShareSum> alpha;
   Three<SquareSum> squares;
   // Of those samples alone that are in the second half.
-  std::vector<std::uint32_t> second_samples;
+  Plane<std::uint32_t> second_samples;
   Three<WideSum> second_light;
   // Of all again.
   Three<ShareSum> normal, albedo;
-  std::vector<std::uint64_t> crossings;
-  std::vector<WideSum> path_length;
+  Plane<std::uint64_t> crossings;
+  Plane<WideSum> path_length;
 
   // The sample of the lowest index, and what it met.
-  std::vector<std::uint32_t> first;
-  std::vector<float> depth;
+  Plane<std::uint32_t> first;
+  Plane<float> depth;
   Three<float> point;
   Three<std::uint32_t> ids;
 };

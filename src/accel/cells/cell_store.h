@@ -7,8 +7,8 @@
 #include "accel/cells/cell.h"
 #include "accel/cells/local_expression.h"
 #include "accel/cells/wide_node.h"
-#include "base/huge_pages.h"
 #include "tenon/base/hash_index.h"
+#include "tenon/base/huge_pages.h"
 
 namespace tenon::cells {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "accel/cells/cell_scale.h"
-#include "base/huge_pages.h"
 #include "csg/csg_tree.h"
+#include "tenon/base/huge_pages.h"
 
 namespace tenon::cells {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "base/huge_pages.h"
+#include "tenon/base/huge_pages.h"
 #include "tenon/math/box3.h"
 
 namespace tenon::cells {
