@@ -18,9 +18,10 @@ namespace tenon::cells {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A node has at most eight children in place of itself, and no tree is deeper.
+/// A node has at most eight children in place of itself, and no tree is deeper; a ray begins with so many at most.
 inline constexpr std::size_t most_depth = 64;
-inline constexpr std::size_t most_pending = most_depth * (node_width - 1) + 1;
+inline constexpr std::size_t most_begun = 8;
+inline constexpr std::size_t most_pending = most_depth * (node_width - 1) + most_begun + 1;
 
 /// A ray in single precision, from where it meets the scene.
 struct BoxRay {

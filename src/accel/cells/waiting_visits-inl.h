@@ -30,7 +30,7 @@ class WaitingVisits {
   }
 
   /// Whether there is room for one more of each ray.
-  bool has_room() const { return fullest_ < most_of_ray; }
+  bool has_room() const { return fullest_ < most_begun; }
   std::size_t total() const { return total_; }
   std::uint64_t rays() const { return rays_; }
   std::span<const NodeStack::Visit> of(std::size_t ray) const { return {visits_[ray].data(), count_[ray]}; }
@@ -46,10 +46,8 @@ class WaitingVisits {
   }
 
  private:
-  static constexpr std::size_t most_of_ray = 8;
-
   std::array<std::uint8_t, RayBatch::most_rays> count_;
-  std::array<std::array<NodeStack::Visit, most_of_ray>, RayBatch::most_rays> visits_;
+  std::array<std::array<NodeStack::Visit, most_begun>, RayBatch::most_rays> visits_;
   std::uint64_t rays_;
   std::size_t total_, fullest_;
 };
