@@ -16,19 +16,21 @@ ChildRef CellStore::add(const Cell& cell) {
   return ChildRef::cell(cells.size() - 1);
 }
 
-ChildRef CellStore::add(Cell cell, const CellMedia& media_there) {
+ChildRef CellStore::add(const Cell& cell, const CellMedia& media_there) {
   ContentHash hash;
   for (const MediumId medium : media_there.media) hash.add(medium);
   for (const CellOwner owner : media_there.owners) hash.add(owner.leaf.get());
   for (const std::uint64_t bits : media_there.more_bits) hash.add(bits);
   const auto known =
       media_index_.find(hash.value(), [&](std::uint32_t i) { return i < media.size() && media[i] == media_there; });
-  cell.owner_or_media = known.value_or(static_cast<std::uint32_t>(media.size()));
+  const std::uint32_t number = known.value_or(static_cast<std::uint32_t>(media.size()));
   if (!known) {
-    media_index_.note(hash.value(), cell.owner_or_media);
+    media_index_.note(hash.value(), number);
     media.push_back(media_there);
   }
-  return add(cell);
+  const ChildRef added = add(cell);
+  cells.back().owner_or_media = number;
+  return added;
 }
 
 ChildRef CellStore::add_extended(std::span<const Symbol> expression, std::uint32_t leaf_count) {

@@ -53,7 +53,7 @@ struct CellStore {
 
   ChildRef add(const Cell& cell);
   /// A cell of these media; its `owner_or_media` is filled in.
-  ChildRef add(Cell cell, const CellMedia& media_there);
+  ChildRef add(const Cell& cell, const CellMedia& media_there);
   /// A cell with more leaves than a table has room for. Where there are too many for a ray to be followed, the
   /// expression is left out.
   ChildRef add_extended(std::span<const Symbol> expression, std::uint32_t leaf_count);
