@@ -109,8 +109,9 @@ TEST(Cells, EveryInstructionSetSaysTheSame) {
   });
 }
 
-// Rays that go the same way from places far apart: a block of them would open all that lies between, and is given up.
-TEST(Cells, BlocksThatDoNotPaySayWhatSingleRaysSay) {
+// Rays that go the same way from places far apart: a block of them would open all that lies between, and leaves
+// what few of them go through to streams.
+TEST(Cells, BlocksWhoseRaysGoApartSayWhatSingleRaysSay) {
   SceneBuilder b;
   Draw draw(35);
   std::vector<SceneNodeId> parts{b.cube({2, 2, 2}, true)};

@@ -40,8 +40,6 @@ class SingleTracer {
   SingleTracer(const CellTree& cells, const CsgTree& tree, CellScratch& scratch, Wanted wanted)
       : cells_(cells), exact_(cells, tree, scratch), wanted_(wanted), tolerance_(tree.tolerance.distance) {}
 
-  Wanted wanted() const { return wanted_; }
-
   /// @param answer  as it is made
   void Trace(const RayQuery& query, CellAnswer& answer, TraversalCounters& counters) {
     query_ = &query;
