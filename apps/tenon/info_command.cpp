@@ -56,6 +56,7 @@ std::string figures_json(const SceneFigures& figures, const std::optional<Struct
     one["boxes"] = structure->figures.boxes;
     one["depth"] = structure->figures.depth;
     for (const auto& [what, value] : structure->figures.details) one["details"][what] = value;
+    if (!structure->figures.note.empty()) one["note"] = structure->figures.note;
   }
   return json.dump(2) + '\n';
 }
@@ -79,6 +80,7 @@ std::string structure_text(const StructureFigures& structure) {
   add("boxes, cells or nodes", "%.0f", static_cast<double>(structure.figures.boxes));
   add("depth", "%.0f", structure.figures.depth);
   for (const auto& [what, value] : structure.figures.details) add(what, "%.0f", value);
+  if (!structure.figures.note.empty()) text += "  note: " + structure.figures.note + '\n';
   return text;
 }
 

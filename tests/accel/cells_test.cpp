@@ -154,6 +154,62 @@ TEST(Cells, QualityIsWorkInTheSubdivision) {
   EXPECT_LT(1.5 * counts[1], counts[2]);
 }
 
+// Where a build has to stop before its cells are small, in depth or in number, they stay large: in a crowd, and where
+// more leaves run through one point than the classifier follows.
+TEST(Cells, AreRightWhereTheirLimitsAreReached) {
+  const CsgTree crowd = gallery::random_scene(6, 300, 6), point = tangent_spheres(100);
+  const auto free = build_accelerator("cells", crowd);
+  for (const char* spec : {"cells:depth=3", "cells:depth=8", "cells:most-cells=50", "cells:most-cells=1,depth=60"}) {
+    SCOPED_TRACE(spec);
+    const auto limited = build_accelerator(spec, crowd);
+    ASSERT_TRUE(limited.ok());
+    EXPECT_LT(detail(**limited, "boundary cells"), 0.5 * detail(**free, "boundary cells"));
+    EXPECT_GT(detail(**limited, "leaves in the fullest cell"), detail(**free, "leaves in the fullest cell"));
+    expect_same_answers(crowd, spec, 12);
+    expect_same_answers(point, spec, 6);
+  }
+  EXPECT_LE((*build_accelerator("cells:depth=12", crowd))->figures().depth, 12);
+  EXPECT_LE(detail(**build_accelerator("cells:most-cells=1000", crowd), "boundary cells"), 1100);
+}
+
+TEST(Cells, SayWhoStandsInForThem) {
+  const auto note_of = [](const CsgTree& tree) { return (*build_accelerator("cells", tree))->figures().note; };
+  SceneBuilder solid, endless;
+  EXPECT_EQ(note_of(solid.tree(solid.sphere(1))), "");
+  const CsgTree half = endless.tree(endless.primitive("halfspace", {Vec3{0, 0, 1}, 0.0}));
+  EXPECT_NE(note_of(half).find("multi-kd"), std::string::npos);
+}
+
+// A direction's length is the unit of t, and may be any: of such as single precision cannot follow, too.
+TEST(Cells, FollowDirectionsOfAnyLength) {
+  const CsgTree tree = gallery::random_scene(8, 24, 1.5);
+  const auto none = build_accelerator("none", tree), judged = build_accelerator("cells", tree);
+  const auto context = (*none)->make_context(), other = (*judged)->make_context();
+  const Box3 box = battery::extent(tree);
+  for (const int exponent : {-120, -99, -70, -69, -60, 0, 60, 99, 120}) {
+    SCOPED_TRACE(exponent);
+    Draw draw(37);
+    std::vector<RayQuery> queries(256);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      Vec3 direction = draw.direction();
+      if (i % 4 == 0) direction[static_cast<int>(i / 4 % 3)] = 0;
+      queries[i].ray = {draw.in_box(grown(box, 0.2 * length(box.size()))), std::ldexp(1.0, exponent) * direction};
+    }
+    const auto [hits, boundaries, occluded] = ask_together(**judged, queries, *other);
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const Hit hit = (*none)->first_hit(queries[i], *context);
+      found += hit.found();
+      ASSERT_TRUE(battery::same_hit(hit, hits[i]))
+          << battery::describe(hit) << " against " << battery::describe(hits[i]);
+      ASSERT_TRUE(battery::same_hit(hit, (*judged)->first_hit(queries[i], *other)));
+      ASSERT_EQ(boundaries[i].t, hit.t);
+      ASSERT_EQ(occluded[i] != 0, hit.found());
+    }
+    EXPECT_GT(found, queries.size() / 8);
+  }
+}
+
 // The tree is the same for any number of threads, and any set of instructions.
 TEST(Cells, AreBuiltAlikeByEverybody) {
   const CsgTree tree = gallery::random_scene(6, 300, 6);

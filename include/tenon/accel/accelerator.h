@@ -53,6 +53,7 @@ struct AcceleratorFigures {
     double value = 0;
   };
   std::vector<Detail> details;
+  std::string note = {};  ///< what else there is to know, such as that another structure does the work; mostly empty
 };
 
 /// The first boundary of the solid along a ray, without what only shading needs: t and surface are those of the Hit.

@@ -188,8 +188,9 @@ BuiltCells build_cells(const SubdivisionInput& input, const Box3& box, const Vec
     leaves += nodes[i].part.leaves.size();
   }
   // Memory stays in proportion to the scene, shared out by the leaves of each part.
-  const double cells_per_leaf =
-      (0x1p19 + 32.0 * static_cast<double>(input.tree.leaves.size())) / static_cast<double>(leaves);
+  const double most_cells = input.limits.cells ? static_cast<double>(*input.limits.cells)
+                                               : 0x1p19 + 32.0 * static_cast<double>(input.tree.leaves.size());
+  const double cells_per_leaf = most_cells / static_cast<double>(leaves);
 
   Assembly assembly(input, center);
   std::vector<std::uint32_t> roots(nodes.size(), SubdivisionNode::none);
@@ -202,8 +203,8 @@ BuiltCells build_cells(const SubdivisionInput& input, const Box3& box, const Vec
     parallel_for(count, threads, [&](std::size_t i, int worker) {
       const SpacePart part = std::exchange(nodes[tasks[begin + i]].part, {});
       sizes[i] = part.leaves.size();
-      const double most_cells = cells_per_leaf * static_cast<double>(sizes[i]);
-      parts[i].subdivision = workers[worker].subdivide(part, static_cast<std::size_t>(most_cells), parts[i].root);
+      const auto most_here = static_cast<std::size_t>(cells_per_leaf * static_cast<double>(sizes[i]));
+      parts[i].subdivision = workers[worker].subdivide(part, most_here, parts[i].root);
       assembly.collapse_if_large(parts[i]);
     });
     for (std::size_t i = 0; i < count; ++i) {

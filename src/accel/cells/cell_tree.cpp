@@ -8,7 +8,8 @@
 
 namespace tenon::cells {
 
-CellTree CellTree::build(const CsgTree& tree, const Box3& box, const BuildQuality& quality, int threads) {
+CellTree CellTree::build(const CsgTree& tree, const Box3& box, const BuildQuality& quality, int threads,
+                         const BuildLimits& limits) {
   CellTree result;
   result.scale = CellScale::of(tree);
   result.box = grown(box, 4 * result.scale.growth);
@@ -23,8 +24,8 @@ CellTree CellTree::build(const CsgTree& tree, const Box3& box, const BuildQualit
   result.shapes = PlacedShapes::of(tree, result.scale);
   result.ranks = OwnerRanks(tree);
   const LeafRegions regions(tree, &result.records);
-  BuiltCells built = build_cells({tree, result.scale, result.records, regions, result.ranks, quality}, result.box,
-                                 result.center, threads);
+  BuiltCells built = build_cells({tree, result.scale, result.records, regions, result.ranks, quality, limits},
+                                 result.box, result.center, threads);
   static_cast<CellStore&>(result) = std::move(built.store);
   result.nodes = std::move(built.nodes);
   result.depth = built.depth;

@@ -52,7 +52,8 @@ struct CellTree : CellStore {
   /// Cells by the number of their leaves, and what else tells a good tree from a bad one.
   std::vector<std::pair<std::string, double>> details() const;
 
-  static CellTree build(const CsgTree& tree, const Box3& box, const BuildQuality& quality, int threads);
+  static CellTree build(const CsgTree& tree, const Box3& box, const BuildQuality& quality, int threads,
+                        const BuildLimits& limits = {});
 };
 
 }  // namespace tenon::cells

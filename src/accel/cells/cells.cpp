@@ -4,6 +4,7 @@
 
 #include "accel/all.h"
 #include "accel/cells/cell_trace.h"
+#include "accel/stand_in.h"
 #include "csg/classifier.h"
 #include "csg/describe_hit.h"
 #include "csg/make_hit.h"
@@ -200,14 +201,25 @@ Result<std::unique_ptr<Accelerator>> build_cells(const BuildInput& input, Accele
     default:
       break;
   }
+  cells::BuildLimits limits;
+  limits.depth = options.take_integer("depth", limits.depth, 1, limits.depth);
+  constexpr int no_limit = 0;
+  const int most_cells = options.take_integer("most-cells", no_limit, 1, std::numeric_limits<int>::max());
+  if (most_cells != no_limit) limits.cells = static_cast<std::size_t>(most_cells);
   const int threads = options.take_integer("threads", available_threads(), 1, 4096);
   if (Status status = options.finish(); !status) return status.error();
   const CsgTree& tree = input.tree;
   const Box3 enclosure = tree.root ? node_enclosures(tree)[tree.root.get()] : Box3::empty();
-  if (!is_plain(tree, enclosure)) return build_accelerator("multi-kd", tree, input.view);
-  if (is_crowd(tree)) return build_accelerator("goldsmith-bvh", tree, input.view);
+  if (!is_plain(tree, enclosure)) {
+    return stand_in(build_accelerator("multi-kd", tree, input.view),
+                    "multi-kd traces it: there are surfaces, or solids without end");
+  }
+  if (is_crowd(tree)) {
+    return stand_in(build_accelerator("goldsmith-bvh", tree, input.view),
+                    "goldsmith-bvh traces it: there are instances, or very many meshes, each of which is stored once");
+  }
   CellTree cells;
-  if (!enclosure.is_empty()) cells = CellTree::build(tree, enclosure, quality, threads);
+  if (!enclosure.is_empty()) cells = CellTree::build(tree, enclosure, quality, threads, limits);
   return std::unique_ptr<Accelerator>(std::make_unique<Cells>(tree, std::move(cells)));
 }
 

@@ -85,7 +85,7 @@ Subdivision::Built Subdivider::build(const SpacePart& part, std::size_t level) {
 }
 
 bool Subdivider::worth_splitting(const SpacePart& part) const {
-  if (part.leaves.size() <= 1 || part.depth >= SplitLimits::deepest) return false;
+  if (part.leaves.size() <= 1 || part.depth >= input_.limits.depth) return false;
   if (part.in_vain >= SplitLimits::most_in_vain) return false;
   if (part.in_vain > 0 && part.leaves.size() << part.in_vain > SplitLimits::most_copies) return false;
   if (result_.store.cells.size() > most_cells_) return false;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "accel/cells/cell_scale.h"
 #include "accel/cells/cell_store.h"
 #include "accel/cells/leaf_records.h"
 #include "accel/cells/leaf_regions.h"
+#include "accel/cells/split_limits.h"
 #include "csg/csg_tree.h"
 
 namespace tenon::cells {
@@ -21,6 +23,12 @@ struct BuildQuality {
   int beside = 1;  ///< evenly spaced planes tried on either side of the middle
 };
 
+/// How far the subdivision may go. What it leaves whole takes longer to trace; what rays meet there is the same.
+struct BuildLimits {
+  int depth = SplitLimits::deepest;
+  std::optional<std::size_t> cells;  ///< about so many; none: in proportion to the scene
+};
+
 /// What is subdivided, and what everybody who takes part in it knows.
 struct SubdivisionInput {
   const CsgTree& tree;
@@ -29,6 +37,7 @@ struct SubdivisionInput {
   const LeafRegions& regions;
   const OwnerRanks& ranks;
   BuildQuality quality;
+  BuildLimits limits;
 };
 
 /// A node of a subdivision: a split plane with a boundary on both sides, or what `leaf` refers to.

@@ -53,7 +53,7 @@ Subdivision::Built TabledSubdivider::build(const Part& part) {
 
 bool TabledSubdivider::worth_splitting(const Part& part) const {
   if (std::popcount(part.rest.leaves) <= 1 || result_->store.cells.size() > most_cells_) return false;
-  if (part.depth >= SplitLimits::deepest) return false;
+  if (part.depth >= input_.limits.depth) return false;
   // What costs twice as much is worth one more try.
   if (part.unpaid >= input_.quality.look_ahead + std::ilogb(search_.cell_cost(part.rest.leaves))) return false;
   double smallest = std::numeric_limits<double>::infinity();
