@@ -18,7 +18,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 /// Gives what was found its last bits.
 class BatchAnswers {
@@ -36,7 +35,7 @@ class BatchAnswers {
       finished = FinishOcclusion(begin, sink);
     } else {
       finished = FinishMisses(begin, sink) | FinishTogether(begin, sink);
-      const std::uint64_t groups = Groups();
+      const std::uint64_t groups = found_.Groups(rays_.padded) & ~found_.unsure;
       if (groups != 0) finished |= FinishGroups(groups, runs, begin, sink);
     }
     for (std::uint64_t left = ~finished & AllRays(); left != 0; left &= left - 1) {
@@ -50,6 +49,7 @@ class BatchAnswers {
  private:
   using D = RayBatch::D;
   static constexpr std::size_t double_lanes = RayBatch::double_lanes;
+  static constexpr std::uint32_t all_lanes = (1U << double_lanes) - 1;
   static constexpr std::size_t kinds = static_cast<std::size_t>(ShapeKind::cylinder) + 1;
   // Where fewer share a leaf, or a cell, it is not worth a vector of their own (by trial on the bench).
   static constexpr int least_neighbours = 3;
@@ -79,7 +79,7 @@ class BatchAnswers {
     }
     const std::uint64_t met = found_.Met(rays_.padded);
     const std::uint64_t finished = (before_end | ~met) & ~found_.unsure & AllRays();
-    for (std::size_t i = 0; i < rays_.count; ++i) sink.put_known(begin + i, (met >> i & 1) != 0);
+    sink.put_known(begin, rays_.count, met);
     return finished;
   }
 
@@ -90,20 +90,14 @@ class BatchAnswers {
   HWY_NOINLINE std::uint64_t FinishTogether(std::size_t begin, const Sink& sink) const {
     std::uint64_t finished = 0;
     std::array<std::uint64_t, kinds> rest{};
+    const std::uint64_t simple = Simple();
     for (std::size_t at = 0; at < rays_.count; at += double_lanes) {
-      std::uint32_t left = 0;
-      for (std::size_t lane = 0; lane < double_lanes && at + lane < rays_.count; ++lane) {
-        left |= static_cast<std::uint32_t>(IsSimple(at + lane)) << lane;
-      }
+      std::uint32_t left = static_cast<std::uint32_t>(simple >> at) & all_lanes;
       while (left != 0) {
-        const LeafId leaf = found_.leaf[at + static_cast<std::size_t>(std::countr_zero(left))];
-        std::uint32_t same = 0;
-        for (std::uint32_t bits = left; bits != 0; bits &= bits - 1) {
-          const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-          same |= static_cast<std::uint32_t>(found_.leaf[at + lane] == leaf) << lane;
-        }
+        const std::size_t first = at + static_cast<std::size_t>(std::countr_zero(left));
+        const std::uint32_t same = found_.SameLeaf(at, first) & left;
         left &= ~same;
-        const ShapeRef shape = cells_.shapes.of_leaf[leaf.get()];
+        const ShapeRef shape = cells_.shapes.of_leaf[found_.leaf(first).get()];
         if (std::popcount(same) < least_neighbours || shape.kind() == ShapeKind::general) {
           rest[static_cast<std::size_t>(shape.kind())] |= std::uint64_t{same} << at;
         } else {
@@ -117,14 +111,15 @@ class BatchAnswers {
     return finished;
   }
 
-  // Rays at whose boundary several faces coincide, a bit each.
-  std::uint64_t Groups() const {
-    std::uint64_t rays = 0;
-    for (std::size_t i = 0; i < rays_.count; ++i) {
-      const bool is_group = found_.cell[i] != BatchFindings::none && (found_.flags[i] & BatchFindings::group) != 0;
-      rays |= static_cast<std::uint64_t>(is_group) << i;
+  // Rays that meet one face, and do not start on that leaf.
+  std::uint64_t Simple() const {
+    std::uint64_t simple = found_.Met(rays_.padded) & ~found_.unsure & ~found_.Groups(rays_.padded) & AllRays();
+    if (!rays_.has_from) return simple;
+    for (std::uint64_t left = simple; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      if (start_face(rays_.queries[i], found_.leaf(i)) >= 0) simple &= ~(std::uint64_t{1} << i);
     }
-    return rays & ~found_.unsure;
+    return simple;
   }
 
   // SingleTracer::FinishGroup for neighbours that meet the same cell, and do not start there.
@@ -133,17 +128,13 @@ class BatchAnswers {
                                           const Sink& sink) const {
     std::uint64_t finished = 0;
     for (std::size_t at = 0; at < rays_.count; at += double_lanes) {
-      std::uint32_t left = static_cast<std::uint32_t>(groups >> at) & ((1U << double_lanes) - 1);
+      std::uint32_t left = static_cast<std::uint32_t>(groups >> at) & all_lanes;
       while (left != 0) {
-        const std::uint32_t cell = found_.cell[at + static_cast<std::size_t>(std::countr_zero(left))];
-        std::uint32_t same = 0;
-        for (std::uint32_t bits = left; bits != 0; bits &= bits - 1) {
-          const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-          same |= static_cast<std::uint32_t>(found_.cell[at + lane] == cell) << lane;
-        }
+        const std::size_t first = at + static_cast<std::size_t>(std::countr_zero(left));
+        const std::uint32_t same = found_.SameCell(at, first) & left;
         left &= ~same;
         if (std::popcount(same) < least_neighbours) continue;
-        finished |= FinishGroup(at, cells_.cells[cell], same, runs, begin, sink);
+        finished |= FinishGroup(at, cells_.cells[found_.cell(first)], same, runs, begin, sink);
       }
     }
     return finished;
@@ -176,17 +167,11 @@ class BatchAnswers {
       const CellStretch stretch{t - 2 * near, t + 2 * near, 0.5 * near, together_ * near, Sink::wanted == Wanted::hit};
       if (MeetChords(cells_, cell, chords, lane, stretch, runs, answer) != Outcome::met) continue;
       answer.kind = answer.t < query.t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
-      answer.cell = found_.cell[i];
+      answer.cell = found_.cell(i);
       sink.put(begin + i, answer);
       done |= std::uint64_t{1} << i;
     }
     return done;
-  }
-
-  bool IsSimple(std::size_t i) const {
-    const bool is_known = found_.cell[i] != BatchFindings::none && (found_.unsure >> i & 1) == 0;
-    return is_known && (found_.flags[i] & BatchFindings::group) == 0 &&
-           start_face(rays_.queries[i], found_.leaf[i]) < 0;
   }
 
   template <class Sink>
@@ -224,7 +209,7 @@ class BatchAnswers {
     const auto take_shapes = [&]<class Shape>(const std::vector<Shape>& list) {
       LaneShapes<D, Shape> shapes;
       for (std::size_t lane = 0; lane < double_lanes; ++lane) {
-        shapes.Put(lane, list[cells_.shapes.of_leaf[found_.leaf[places[lane]].get()].index()]);
+        shapes.Put(lane, list[cells_.shapes.of_leaf[found_.leaf(places[lane]).get()].index()]);
       }
       return shapes;
     };
@@ -253,7 +238,7 @@ class BatchAnswers {
     const D d;
     std::uint8_t entering[8] = {};
     for (std::size_t lane = 0; lane < double_lanes; ++lane) {
-      entering[0] |= static_cast<std::uint8_t>((found_.flags[places[lane]] & BatchFindings::entering) << lane);
+      entering[0] |= static_cast<std::uint8_t>(static_cast<int>(found_.enters(places[lane])) << lane);
     }
     const auto enters = hn::LoadMaskBits(d, entering);
     const auto about = hn::Add(take(found_.t), take(rays_.start));
@@ -277,9 +262,9 @@ class BatchAnswers {
       CellAnswer answer;
       answer.t = t[lane];
       answer.kind = (in_time >> lane & 1) != 0 ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
-      answer.cell = found_.cell[i];
-      answer.surface = {found_.leaf[i], static_cast<std::uint32_t>(face[lane])};
-      answer.leaf_entering = (found_.flags[i] & BatchFindings::entering) != 0;
+      answer.cell = found_.cell(i);
+      answer.surface = {found_.leaf(i), static_cast<std::uint32_t>(face[lane])};
+      answer.leaf_entering = found_.enters(i);
       found_.TakeValues(i, answer);
       sink.put(begin + i, answer);
       done |= std::uint64_t{1} << i;
@@ -290,11 +275,11 @@ class BatchAnswers {
   void Answer(std::size_t i, CellAnswer& answer, SingleTracer& single, TraversalStatistics& statistics) const {
     const RayQuery& query = rays_.queries[i];
     if ((found_.unsure >> i & 1) != 0) return single.Trace(query, answer, statistics[query.kind]);
-    answer.cell = found_.cell[i];
+    answer.cell = found_.cell(i);
     answer.t = found_.t[i] + rays_.start[i];
-    if ((found_.flags[i] & BatchFindings::group) != 0) return single.FinishGroup(query, answer);
-    answer.surface = {found_.leaf[i], 0};
-    answer.leaf_entering = (found_.flags[i] & BatchFindings::entering) != 0;
+    if (found_.is_group(i)) return single.FinishGroup(query, answer);
+    answer.surface = {found_.leaf(i), 0};
+    answer.leaf_entering = found_.enters(i);
     found_.TakeValues(i, answer);
     single.BeginKnown(query);
     single.Finish(answer);

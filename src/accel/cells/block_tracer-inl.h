@@ -16,7 +16,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 /// Follows up to 64 rays into one octant. Nodes are opened for all of them at once, by intervals that hold their
 /// origins and directions (Wald et al. 2007, "Ray tracing deformable scenes using dynamic bounding volume hierarchies":
@@ -33,7 +32,7 @@ class BlockTracer {
     if (rays_.unsound != 0 || !rays_.one_kind) return false;
     const D d;
     const auto zero = hn::Zero(d);
-    const std::uint8_t octant = rays_.octant[0];
+    const std::uint32_t octant = rays_.octant(0);
     for (std::size_t a = 0; a < 3; ++a) {
       backward_[a] = octant >> a & 1;
       auto least = hn::Set(d, 2.0), greatest = hn::Set(d, -2.0);
@@ -224,9 +223,9 @@ class BlockTracer {
     for (std::size_t i = 0; i < rays_.padded; i += float_lanes) {
       auto near = hn::Zero(f), far = hn::Load(f, rays_.box_end + i);
       for (std::size_t a = 0; a < 3; ++a) {
-        const auto origin = hn::Load(f, &rays_.box_origin[a][i]), inverse = hn::Load(f, &rays_.box_inverse[a][i]);
-        near = hn::Max(near, hn::Mul(hn::Sub(hn::Set(f, entry.box[a]), origin), inverse));
-        far = hn::Min(far, hn::Mul(hn::Sub(hn::Set(f, entry.box[3 + a]), origin), inverse));
+        const auto shift = hn::Load(f, &rays_.box_shift[a][i]), inverse = hn::Load(f, &rays_.box_inverse[a][i]);
+        near = hn::Max(near, hn::MulSub(hn::Set(f, entry.box[a]), inverse, shift));
+        far = hn::Min(far, hn::MulSub(hn::Set(f, entry.box[3 + a]), inverse, shift));
       }
       hn::Store(near, f, t_in_ + i);
       hn::Store(far, f, t_out_ + i);
@@ -292,28 +291,13 @@ class BlockTracer {
     }
     bool shorter = false;
     if (HWY_UNLIKELY(!hn::AllFalse(d, walk.unsure))) shorter = Drop(at, RayBatch::Bits(walk.unsure));
-    const auto best = hn::Load(d, &found_.t[at]);
-    const auto better = hn::And(walk.met, hn::Lt(walk.t, best));
-    std::uint32_t bits = RayBatch::Bits(better);
-    if (bits == 0) return shorter;
-    HWY_ALIGN double t[double_lanes];
-    hn::Store(walk.t, d, t);
-    HWY_ALIGN std::uint64_t place[double_lanes];
-    HWY_ALIGN std::uint64_t before[double_lanes];
-    HWY_ALIGN std::uint64_t behind[double_lanes];
-    hn::Store(walk.place, u, place);
-    hn::Store(walk.before, u, before);
-    hn::Store(walk.behind, u, behind);
-    const std::uint32_t enter_bits = RayBatch::Bits(walk.enters), crowd_bits = RayBatch::Bits(walk.crowded);
-    for (; bits != 0; bits &= bits - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-      found_.Keep(rays_, at + lane,
-                  {t[lane], index, cell.leaves[static_cast<std::size_t>(place[lane])],
-                   BatchFindings::flags_of((enter_bits >> lane & 1) != 0, (crowd_bits >> lane & 1) != 0),
-                   BatchFindings::values_of(before[lane], behind[lane])},
-                  any_will_do_);
+    auto leaf = hn::Set(u, cell.leaves[0].get());
+    for (std::uint32_t i = 1; i < count; ++i) {
+      leaf = hn::IfThenElse(hn::Eq(walk.place, hn::Set(u, i)), hn::Set(u, cell.leaves[i].get()), leaf);
     }
-    return true;
+    const BatchFindings::Boundaries boundaries{walk.t,      hn::Set(u, index), leaf,        walk.before,
+                                               walk.behind, walk.enters,       walk.crowded};
+    return found_.Keep(rays_, at, walk.met, boundaries, any_will_do_) || shorter;
   }
 
   // SingleTracer::ClearStart for the lanes of `starts`.

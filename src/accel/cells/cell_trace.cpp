@@ -62,6 +62,7 @@ HWY_NOINLINE void TraceInBatches(const CellTree& cells, double tolerance, Single
     } else {
       stream.Trace(rays.in_scene(), nullptr, any_will_do, statistics);
     }
+    rays.CallLater(RayBatch::most_rays);
     finisher.Write(begin, sink, single, runs, statistics);
   }
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <span>
@@ -165,8 +167,14 @@ struct OcclusionSink {
   std::vector<std::uint32_t>& unsure;
 
   static constexpr Wanted wanted = Wanted::occlusion;
-  /// What may still be put another time.
-  void put_known(std::size_t i, bool met) const { occluded[i] = met; }
+  /// What may still be put another time: of rays from place i on, a bit each.
+  void put_known(std::size_t i, std::size_t count, std::uint64_t met) const {
+    for (std::size_t k = 0; k < count; k += 8, met >>= 8) {
+      // Bits 0 to 6 each by the factor that brings it to its byte, and the last one by itself.
+      const std::uint64_t bytes = (((met & 0x7f) * 0x02040810204081) & 0x01010101010101) | (met & 0x80) << 49;
+      std::memcpy(occluded.data() + i + k, &bytes, std::min<std::size_t>(8, count - k));
+    }
+  }
   void put(std::size_t i, const CellAnswer& answer) const {
     occluded[i] = answer.kind == CellAnswer::Kind::boundary;
     if (answer.kind == CellAnswer::Kind::unsure) unsure.push_back(static_cast<std::uint32_t>(i));

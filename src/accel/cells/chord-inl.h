@@ -14,7 +14,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 /// The part of a ray's line inside a convex solid: both its crossings.
 template <class D>

@@ -9,12 +9,12 @@
 
 #include <hwy/highway.h>
 
+#include "accel/cells/lanes-inl.h"
 #include "accel/cells/placed_shape.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 template <class D>
 struct Vec3Lanes {
@@ -229,17 +229,21 @@ HWY_INLINE void ClipSlab(D d, hn::Vec<D> origin, hn::Vec<D> direction, hn::Vec<D
                          double high_face, hn::Vec<D> least_slope, hn::Vec<D> near_plane, int on_face,
                          hn::Mask<D> enters, CrossingLanes<D>& end) {
   const auto zero = hn::Zero(d);
-  const auto above = hn::Sub(high, origin), below = hn::Sub(low, origin);
   const auto steep = hn::Gt(hn::Abs(direction), least_slope);
   const auto at_high = hn::Xor(enters, hn::Gt(direction, zero));
-  const auto slope = hn::IfThenElse(steep, direction, hn::Set(d, 1.0));
-  auto t = hn::Div(hn::IfThenElse(at_high, above, below), slope);
+  const auto face = hn::IfThenElse(at_high, hn::Set(d, high_face), hn::Set(d, low_face));
+  const auto way = hn::Sub(hn::IfThenElse(at_high, high, low), origin);
+  if (HWY_LIKELY(hn::AllTrue(d, steep) && on_face != static_cast<int>(high_face) &&
+                 on_face != static_cast<int>(low_face))) {
+    return Cut(d, steep, enters, hn::Div(way, direction), face, end);
+  }
+  auto t = hn::Div(way, hn::IfThenElse(steep, direction, hn::Set(d, 1.0)));
   if (on_face == static_cast<int>(high_face)) t = hn::IfThenElse(at_high, zero, t);
   if (on_face == static_cast<int>(low_face)) t = hn::IfThenElse(at_high, t, zero);
-  Cut(d, steep, enters, t, hn::IfThenElse(at_high, hn::Set(d, high_face), hn::Set(d, low_face)), end);
+  Cut(d, steep, enters, t, face, end);
 
   // Positive inside.
-  const auto depth = hn::Min(above, hn::Neg(below));
+  const auto depth = hn::Min(hn::Sub(high, origin), hn::Sub(origin, low));
   end.hit = hn::And(end.hit, hn::Or(steep, hn::Gt(depth, zero)));
   end.unsure = hn::Or(end.unsure, hn::AndNot(steep, hn::Not(hn::Gt(hn::Abs(depth), near_plane))));
 }

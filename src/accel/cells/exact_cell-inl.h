@@ -20,15 +20,30 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using One = hn::CappedTag<double, 1>;
 
 enum class Outcome { passed, met, unsure };
 
-/// How long a ray's direction is.
-struct RayScale {
-  double square = 1, inverse_square = 1, length = 1;
+/// A ray as it was asked, and lengths of the scene along it.
+struct AskedRay {
+  const RayQuery* query;
+  double square, inverse_square, length;  ///< of its direction
+  double near;                            ///< two resolutions (CellScale)
+  double together;                        ///< the scene's tolerance
+
+  HWY_INLINE void Begin(const RayQuery& the_query, double direction_square, double resolution, double tolerance) {
+    query = &the_query;
+    square = direction_square;
+    inverse_square = 1 / square;
+    length = hn::Sqrt(square);
+    const double slowness = length * inverse_square;
+    near = 2 * resolution * slowness;
+    together = tolerance * slowness;
+  }
+  double resolution() const { return 0.5 * near; }
+  HWY_INLINE RayLanes<One> lanes() const {
+    const Vec3 &o = query->ray.origin, &d = query->ray.direction;
+    return {{o.x, o.y, o.z}, {d.x, d.y, d.z}, square, inverse_square, resolution()};
+  }
 };
 
 /// The exact chords of a cell's leaves, by place, one ray a lane; infinite where a leaf is not met.
@@ -152,49 +167,27 @@ Outcome MeetChords(const CellStore& cells, const Cell& cell, const CellChords<la
 /// Follows one ray through one cell after another, exactly. Here t is that of the ray as it was asked.
 class ExactCell {
  public:
-  ExactCell(const CellTree& cells, const CsgTree& tree, CellScratch& scratch)
-      : cells_(cells), tree_(tree), scratch_(scratch) {}
+  /// @param ray  the one that is followed, from one Begin() to the next
+  ExactCell(const CellTree& cells, const CsgTree& tree, const AskedRay& ray, CellScratch& scratch)
+      : cells_(cells), tree_(tree), ray_(ray), scratch_(scratch) {}
 
   /// Begins a new ray.
-  /// @param resolution, together  CellScale::resolution and the scene's tolerance along the ray
-  void Begin(const RayQuery& query, const RayScale& scale, double resolution, double together) {
-    query_ = &query;
-    ++scratch_.ray;
-    length_ = scale.length;
-    resolution_ = resolution;
-    together_ = together;
-    const One one;
-    const Vec3 &o = query.ray.origin, &d = query.ray.direction;
-    ray_.origin = {hn::Set(one, o.x), hn::Set(one, o.y), hn::Set(one, o.z)};
-    ray_.direction = {hn::Set(one, d.x), hn::Set(one, d.y), hn::Set(one, d.z)};
-    ray_.square = hn::Set(one, scale.square);
-    ray_.inverse = hn::Set(one, scale.inverse_square);
-    ray_.resolution = hn::Set(one, resolution_);
-  }
+  void Begin() { ++scratch_.ray; }
 
   /// Gives a boundary that was found by plain arithmetic the t and the face of spans(). @return whether it has them
-  bool Finish(CellAnswer& answer) {
+  HWY_INLINE bool Finish(CellAnswer& answer) {
     const LeafId leaf = answer.surface.leaf;
-    const int on_face = start_face(*query_, leaf);
+    const int on_face = start_face(*ray_.query, leaf);
     const ShapeRef shape = cells_.shapes.of_leaf[leaf.get()];
-    const double near = 2 * resolution_;
     if (has_chord(shape.kind()) || (shape.kind() == ShapeKind::torus && on_face < 0)) {
-      const One one;
       const CrossingLanes<One> end = OneCrossing(shape, on_face, answer);
-      const double t = hn::GetLane(end.t);
-      if (hn::AllFalse(one, end.unsure) && std::fabs(t - answer.t) <= near) {
-        answer.t = t;
-        answer.surface.face = static_cast<std::uint32_t>(hn::GetLane(end.face));
+      if (!end.unsure && std::fabs(end.t - answer.t) <= ray_.near) {
+        answer.t = end.t;
+        answer.surface.face = static_cast<std::uint32_t>(end.face);
         return true;
       }
     }
-    for (const Crossing& c : FindSpans(leaf, on_face)) {
-      if (c.entering != answer.leaf_entering || !(std::fabs(c.t - answer.t) <= near)) continue;
-      answer.t = c.t;
-      answer.surface.face = c.face;
-      return true;
-    }
-    return false;
+    return FinishBySpans(on_face, answer);
   }
 
   /// The same for crossings that coincide, and change the value of the cell's points.
@@ -217,10 +210,10 @@ class ExactCell {
     return WithValues(cells_, cell, [&](const auto& value_of) {
       const double t = group.first_change(value_of, after).t;
       for (const CrossingGroup::End& end : group.all()) {
-        if (!(std::fabs(end.t - t) <= together_)) return false;
+        if (!(std::fabs(end.t - t) <= ray_.together)) return false;
       }
       const auto face_at = [&](std::uint32_t place, bool) { return LeafFace{cell.leaves[place], faces[place]}; };
-      const CellStretch stretch{t, t, resolution_, together_, wants_faces};
+      const CellStretch stretch{t, t, ray_.resolution(), ray_.together, wants_faces};
       TellGroup(cells_, cell, value_of, group, after, face_at, stretch, scratch_.runs, answer);
       return true;
     });
@@ -229,21 +222,20 @@ class ExactCell {
   /// The first boundary in a cell whose leaves all have chords, several of which coincide there.
   /// @param wants_faces  whether to keep all faces that do, as the classifier would
   HWY_NOINLINE Outcome Meet(const Cell& cell, double t_in, double t_out, bool wants_faces, CellAnswer& answer) {
-    const double near = 2 * resolution_;
-    const One one;
+    const double near = ray_.near;
     CellChords<1> chords;
     for (std::uint32_t i = 0; i < cell.leaf_count; ++i) {
       const ShapeRef shape = cells_.shapes.of_leaf[cell.leaves[i].get()];
       if (!has_chord(shape.kind())) return Outcome::unsure;
-      const int on_face = start_face(*query_, cell.leaves[i]);
+      const int on_face = start_face(*ray_.query, cell.leaves[i]);
       const ChordLanes<One> chord = Chord(shape, on_face);
-      if (!hn::AllFalse(one, chord.unsure)) return Outcome::unsure;
-      chords.Put(one, i, chord);
+      if (chord.unsure) return Outcome::unsure;
+      chords.Put(One(), i, chord);
       const bool is_clear = t_in > near || StartIsClear(chords.enter[i][0], chords.leave[i][0], on_face, near);
       if (!is_clear) return Outcome::unsure;
     }
-    return MeetChords(cells_, cell, chords, 0, {t_in, t_out, resolution_, together_, wants_faces}, scratch_.runs,
-                      answer);
+    return MeetChords(cells_, cell, chords, 0, {t_in, t_out, ray_.resolution(), ray_.together, wants_faces},
+                      scratch_.runs, answer);
   }
 
   /// Has the classifier follow the ray through the cell, with the bounds of all crossings.
@@ -258,12 +250,12 @@ class ExactCell {
     const std::span<const LeafId> leaves = cells_.leaves_of(cell);
     auto& lists = classifier.source().of_leaf;
     if (lists.size() < leaves.size()) lists.resize(leaves.size());
-    const double near = 8 * resolution_;
+    const double near = 8 * ray_.resolution();
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-      const Spans& known = FindSpans(leaves[i], start_face(*query_, leaves[i]));
+      const Spans& known = FindSpans(leaves[i], start_face(*ray_.query, leaves[i]));
       for (const Crossing& c : known) {
         const bool matters = c.t + c.bound >= t_in - near && c.t - c.bound <= t_out + near;
-        if (c.surface || (matters && !(c.bound <= resolution_))) return Outcome::unsure;
+        if (c.surface || (matters && !(c.bound <= ray_.resolution()))) return Outcome::unsure;
       }
       lists[i] = known;
     }
@@ -294,22 +286,30 @@ class ExactCell {
 
  private:
   ChordLanes<One> Chord(ShapeRef shape, int on_face) const {
-    const One one;
-    return FindChord(one, ray_, cells_.shapes, shape, on_face, cells_.scale.reach, hn::Set(one, length_));
+    return FindChord(One(), ray_.lanes(), cells_.shapes, shape, on_face, cells_.scale.reach, ray_.length);
   }
 
   // That of a leaf which plain arithmetic has found.
-  CrossingLanes<One> OneCrossing(ShapeRef shape, int on_face, const CellAnswer& answer) const {
-    const One one;
-    const auto all = hn::Eq(ray_.square, ray_.square), enters = answer.leaf_entering ? all : hn::Not(all);
+  HWY_INLINE CrossingLanes<One> OneCrossing(ShapeRef shape, int on_face, const CellAnswer& answer) const {
+    const bool enters = answer.leaf_entering;
     const auto take = [&]<class Shape>(const std::vector<Shape>& list) {
       return SharedShape<One, Shape>(list[shape.index()]);
     };
     if (shape.kind() == ShapeKind::torus) {
-      return TorusCrossing(one, ray_, take(cells_.shapes.tori), hn::Set(one, answer.t), enters);
+      return TorusCrossing(One(), ray_.lanes(), take(cells_.shapes.tori), answer.t, enters);
     }
-    return FindCrossing(one, ray_, cells_.shapes, shape.kind(), take, on_face, cells_.scale.reach,
-                        hn::Set(one, length_), enters);
+    return FindCrossing(One(), ray_.lanes(), cells_.shapes, shape.kind(), take, on_face, cells_.scale.reach,
+                        ray_.length, enters);
+  }
+
+  HWY_NOINLINE bool FinishBySpans(int on_face, CellAnswer& answer) {
+    for (const Crossing& c : FindSpans(answer.surface.leaf, on_face)) {
+      if (c.entering != answer.leaf_entering || !(std::fabs(c.t - answer.t) <= ray_.near)) continue;
+      answer.t = c.t;
+      answer.surface.face = c.face;
+      return true;
+    }
+    return false;
   }
 
   const Spans& FindSpans(LeafId leaf, int on_face) {
@@ -320,7 +320,7 @@ class ExactCell {
     known.leaf = leaf;
     known.spans.clear();
     const Leaf& placed = tree_[leaf];
-    spans(tree_.primitives, placed.primitive, placed.placement, query_->ray, tree_.tolerance.distance, on_face,
+    spans(tree_.primitives, placed.primitive, placed.placement, ray_.query->ray, tree_.tolerance.distance, on_face,
           known.spans);
     return known.spans;
   }
@@ -334,12 +334,8 @@ class ExactCell {
 
   const CellTree& cells_;
   const CsgTree& tree_;
+  const AskedRay& ray_;
   CellScratch& scratch_;
-  const RayQuery* query_ = nullptr;
-  double length_ = 1;
-  double resolution_ = 0;
-  double together_ = 0;
-  RayLanes<One> ray_;
   std::uint64_t tests_ = 0;
 };
 

@@ -9,25 +9,52 @@
 
 #include <hwy/highway.h>
 
+#include <array>
 #include <bit>
 
+#include "accel/cells/lanes-inl.h"
 #include "accel/cells/wide_node.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 /// A node has at most eight children in place of itself, and no tree is deeper; a ray begins with so many at most.
 inline constexpr std::size_t most_depth = 64;
 inline constexpr std::size_t most_begun = 8;
 inline constexpr std::size_t most_pending = most_depth * (node_width - 1) + most_begun + 1;
 
-/// A ray in single precision, from where it meets the scene.
+/// By mask: the numbers of the bits that are set, three bits each, and then those of the others.
+inline constexpr std::array<std::uint32_t, 1 << node_width> set_bits_first = [] {
+  std::array<std::uint32_t, 1 << node_width> all{};
+  for (std::uint32_t mask = 0; mask < all.size(); ++mask) {
+    int place = 0;
+    for (const std::uint32_t wanted : {1U, 0U}) {
+      for (std::uint32_t bit = 0; bit < node_width; ++bit) {
+        if ((mask >> bit & 1) == wanted) all[mask] |= bit << (3 * place++);
+      }
+    }
+  }
+  return all;
+}();
+
+/// A ray in single precision, from where it meets the scene, as many times as a node has children: it meets a plane at
+/// t = plane * inverse - shift.
 struct BoxRay {
-  const float *origin[3], *inverse[3];
-  float t_end;
+  using Wide = hn::CappedTag<float, node_width>;
+
+  hn::Vec<Wide> shift[3], inverse[3];
+  hn::Vec<Wide> end;
   std::uint32_t octant;  ///< bit a: backward along axis a
+
+  BoxRay() = default;
+  HWY_INLINE BoxRay(const float* its_shift, const float* its_inverse, float t_end, std::uint32_t its_octant)
+      : end(hn::Set(Wide(), t_end)), octant(its_octant) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      shift[a] = hn::Set(Wide(), its_shift[a]);
+      inverse[a] = hn::Set(Wide(), its_inverse[a]);
+    }
+  }
 };
 
 /// Nodes and cells that a ray has still to visit, the nearest last.
@@ -71,22 +98,21 @@ class NodeStack {
   }
 
  private:
-  using Wide = hn::CappedTag<float, node_width>;
+  using Wide = BoxRay::Wide;
   struct Stretches {
     hn::Vec<Wide> near, far;
   };
 
   static HWY_INLINE Stretches Meet(const WideNode& node, const BoxRay& ray, std::size_t lane) {
-    const Wide wide;
-    Stretches s{hn::Zero(wide), hn::Set(wide, ray.t_end)};
+    hn::Vec<Wide> near[3], far[3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto origin = hn::Set(wide, *ray.origin[axis]), inverse = hn::Set(wide, *ray.inverse[axis]);
       const float* ends = node.ends[axis][0].data() + lane;
       const std::size_t first = (ray.octant >> axis & 1) * node_width;
-      s.near = hn::Max(s.near, hn::Mul(hn::Sub(hn::Load(wide, ends + first), origin), inverse));
-      s.far = hn::Min(s.far, hn::Mul(hn::Sub(hn::Load(wide, ends + (node_width - first)), origin), inverse));
+      near[axis] = hn::MulSub(hn::Load(Wide(), ends + first), ray.inverse[axis], ray.shift[axis]);
+      far[axis] = hn::MulSub(hn::Load(Wide(), ends + (node_width - first)), ray.inverse[axis], ray.shift[axis]);
     }
-    return s;
+    return {hn::Max(hn::Max(near[0], near[1]), hn::Max(near[2], hn::Zero(Wide()))),
+            hn::Min(hn::Min(far[0], far[1]), hn::Min(far[2], ray.end))};
   }
 
   // What the ray meets of a node, from last to first; of those that are not met, anything.
@@ -96,18 +122,38 @@ class NodeStack {
     std::uint32_t met;  // a bit each
   };
 
+  // Lanes in an order, three bits each, as WideNode::last_to_first has it.
+  template <class Lanes>
+  static HWY_INLINE hn::Vec<Lanes> Arranged(Lanes d, hn::Vec<Lanes> v, std::uint32_t order) {
+    const hn::RebindToUnsigned<Lanes> u;
+    HWY_ALIGN static constexpr std::uint32_t shifts[node_width] = {0, 3, 6, 9, 12, 15, 18, 21};
+    const auto lanes = hn::And(hn::Shr(hn::Set(u, order), hn::Load(u, shifts)), hn::Set(u, 7));
+    return hn::TableLookupLanes(v, hn::IndicesFromVec(d, lanes));
+  }
+
+  // The lanes of a mask first. Highway's Compress for AVX2 has a table of 1 KiB copied to the stack each time (1.0.3,
+  // by GCC), which takes longer than all the rest here.
+  template <class Lanes>
+  static HWY_INLINE hn::Vec<Lanes> Compressed(Lanes d, hn::Vec<Lanes> v, hn::Mask<Lanes> mask, std::uint32_t bits) {
+#if HWY_TARGET == HWY_AVX2
+    static_cast<void>(mask);
+    return Arranged(d, v, set_bits_first[bits]);
+#else
+    static_cast<void>(d);
+    static_cast<void>(bits);
+    return hn::Compress(v, mask);
+#endif
+  }
+
   HWY_INLINE void Push(const WideNode& node, const BoxRay& ray, Opened& opened) {
     const Wide wide;
     const std::uint32_t order = node.last_to_first[ray.octant];
     const std::size_t size = size_;
     if constexpr (hn::MaxLanes(Wide()) == node_width) {
       const hn::RebindToUnsigned<Wide> whole;
-      HWY_ALIGN static constexpr std::uint32_t shifts[node_width] = {0, 3, 6, 9, 12, 15, 18, 21};
-      const auto lane = hn::And(hn::Shr(hn::Set(whole, order), hn::Load(whole, shifts)), hn::Set(whole, 7));
-      const auto ordered = hn::IndicesFromVec(wide, lane);
       const Stretches s = Meet(node, ray, 0);
-      const auto near = hn::TableLookupLanes(s.near, ordered), far = hn::TableLookupLanes(s.far, ordered);
-      const auto child = hn::TableLookupLanes(hn::Load(whole, &node.children[0].bits), hn::IndicesFromVec(whole, lane));
+      const auto near = Arranged(wide, s.near, order), far = Arranged(wide, s.far, order);
+      const auto child = Arranged(whole, hn::Load(whole, &node.children[0].bits), order);
       const auto met = hn::Le(near, far);
       hn::Store(near, wide, opened.near);
       hn::Store(far, wide, opened.far);
@@ -115,9 +161,9 @@ class NodeStack {
       hn::StoreMaskBits(wide, met, bits);
       opened.met = bits[0];
       // Whole vectors are written; what lies behind the last one met is overwritten by what comes next.
-      hn::StoreU(hn::Compress(near, met), wide, t_in_ + size);
-      hn::StoreU(hn::Compress(far, met), wide, t_out_ + size);
-      hn::StoreU(hn::Compress(child, hn::RebindMask(whole, met)), whole, child_ + size);
+      hn::StoreU(Compressed(wide, near, met, opened.met), wide, t_in_ + size);
+      hn::StoreU(Compressed(wide, far, met, opened.met), wide, t_out_ + size);
+      hn::StoreU(Compressed(whole, child, hn::RebindMask(whole, met), opened.met), whole, child_ + size);
       size_ = size + hn::CountTrue(wide, met);
     } else {
       HWY_ALIGN float near[node_width];

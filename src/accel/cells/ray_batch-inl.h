@@ -21,7 +21,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 /// Up to 64 rays, and what the kernels want to know of them.
 struct RayBatch {
@@ -34,15 +33,24 @@ struct RayBatch {
   static constexpr std::size_t most_rays = 64;
 
   /// Takes the rays.
-  /// @param later  those of the next batch, which are called to the cache
+  /// @param later  those of the next batch, see CallLater()
   void Begin(const CellTree& cells, std::span<const RayQuery> rays, std::span<const RayQuery> later) {
     queries = rays;
+    later_ = later;
     count = queries.size();
     padded = (count + float_lanes - 1) / float_lanes * float_lanes;
     Load();
-    FindStarts(cells, later);
-    FindOctants();
+    FindStarts(cells);
     if (has_from) FindStartLeaves();
+  }
+
+  /// Asks for some of the rays of the next batch before they are needed, each time for others: a few at a time, for
+  /// memory takes few requests at once.
+  HWY_INLINE void CallLater(std::size_t most) {
+    const std::span<const RayQuery> rays = later_.first(std::min(most, later_.size()));
+    later_ = later_.subspan(rays.size());
+    const auto* first = reinterpret_cast<const char*>(rays.data());
+    for (std::size_t byte = 0; byte < rays.size_bytes(); byte += 64) hwy::Prefetch(first + byte);
   }
 
   /// Those from place i on, as many as a vector has doubles.
@@ -76,12 +84,21 @@ struct RayBatch {
     return ray;
   }
 
-  bool meets_scene(std::size_t i) const { return box_end[i] >= 0; }
   /// The rays that meet the scene, a bit each.
   std::uint64_t in_scene() const {
+    const F f;
     std::uint64_t rays = 0;
-    for (std::size_t i = 0; i < count; ++i) rays |= static_cast<std::uint64_t>(meets_scene(i)) << i;
+    for (std::size_t i = 0; i < padded; i += float_lanes) {
+      std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(f, hn::Ge(hn::Load(f, &box_end[i]), hn::Zero(f)), bits);
+      rays |= static_cast<std::uint64_t>(bits[0] | bits[1] << 8) << i;
+    }
     return rays;
+  }
+  /// Bit a: backward along axis a.
+  std::uint32_t octant(std::size_t i) const {
+    const auto sign = [&](std::size_t a) { return std::bit_cast<std::uint32_t>(box_inverse[a][i]) >> 31; };
+    return sign(0) | sign(1) << 1 | sign(2) << 2;
   }
 
   std::span<const RayQuery> queries;
@@ -105,8 +122,8 @@ struct RayBatch {
   /// done.
   HWY_ALIGN float box_origin[3][most_rays];
   HWY_ALIGN float box_inverse[3][most_rays];
+  HWY_ALIGN float box_shift[3][most_rays];  ///< BoxRay::shift
   HWY_ALIGN float box_end[most_rays];
-  std::uint8_t octant[most_rays];  ///< bit a: backward along axis a
 
   /// Where `has_from`: the leaves of the faces that the rays start on, numbers of LeafId or below zero, side by side;
   /// of more faces than there is room for, the first.
@@ -144,7 +161,8 @@ struct RayBatch {
   }
 
   // Loads as many rays as there are fours of, where a vector has room for four numbers. Those of a ray stand side by
-  // side in memory; here each gets a row of its own. @return how many
+  // side in memory; here each gets a row of its own.
+  // @return how many
   std::size_t LoadFours() {
     std::size_t i = 0;
 #if HWY_TARGET != HWY_SCALAR
@@ -171,23 +189,40 @@ struct RayBatch {
     return i;
   }
 
-  // Asks for what lies further on in memory before it is needed: a little at a time, for there is room for few
-  // requests.
-  static HWY_INLINE void Prefetch(std::span<const RayQuery> rays) {
-    const auto* first = reinterpret_cast<const char*>(rays.data());
-    for (std::size_t byte = 0; byte < rays.size_bytes(); byte += 64) hwy::Prefetch(first + byte);
+  // 1 / v, large instead of infinite, and 1 / |v|. Where no component is tiny they are had from one division, which is
+  // what takes longest here: that by the product of all four. They are then off by a few roundings.
+  // @param most  see CellScale
+  static HWY_INLINE void Invert(const hn::Vec<D>* v, hn::Vec<D> length, hn::Vec<D> most, hn::Vec<D>* inverse,
+                                hn::Vec<D>& inverse_length) {
+    const D d;
+    const auto unit = hn::Set(d, 1.0);
+    // Such that the product is a number, and so is its inverse.
+    const auto least = hn::Mul(hn::Set(d, 0x1p-30), length);
+    const auto smallest = hn::Min(hn::Min(hn::Abs(v[0]), hn::Abs(v[1])), hn::Abs(v[2]));
+    const auto is_common = hn::And(hn::Ge(smallest, least), hn::Lt(hn::Abs(hn::Sub(length, unit)), hn::Set(d, 0x1p60)));
+    if (HWY_LIKELY(hn::AllTrue(d, is_common))) {
+      const auto xy = hn::Mul(v[0], v[1]), zl = hn::Mul(v[2], length);
+      const auto of_all = hn::Div(unit, hn::Mul(xy, zl));
+      const auto of_xy = hn::Mul(of_all, zl), of_zl = hn::Mul(of_all, xy);
+      inverse[0] = hn::Mul(of_xy, v[1]);
+      inverse[1] = hn::Mul(of_xy, v[0]);
+      inverse[2] = hn::Mul(of_zl, length);
+      inverse_length = hn::Mul(of_zl, v[2]);
+      return;
+    }
+    for (std::size_t a = 0; a < 3; ++a) inverse[a] = hn::Max(hn::Min(hn::Div(unit, v[a]), most), hn::Neg(most));
+    inverse_length = hn::Div(unit, length);
   }
 
   // Where the rays meet the scene's box.
-  HWY_NOINLINE void FindStarts(const CellTree& cells, std::span<const RayQuery> later) {
+  HWY_NOINLINE void FindStarts(const CellTree& cells) {
     const D d;
     const HalfF f;
-    const auto zero = hn::Zero(d), most = hn::Set(d, 0x1p100), unit = hn::Set(d, 1.0);
+    const auto zero = hn::Zero(d), most = hn::Set(d, 0x1p100);
     flat = false;
     unsound = 0;
     for (std::size_t i = 0; i < padded; i += double_lanes) {
-      const std::size_t left = later.size() - std::min(i, later.size());
-      Prefetch(later.subspan(later.size() - left, std::min(double_lanes, left)));
+      CallLater(double_lanes / 2);
       const hn::Vec<D> o[3] = {hn::Load(d, &query_origin[0][i]), hn::Load(d, &query_origin[1][i]),
                                hn::Load(d, &query_origin[2][i])};
       const hn::Vec<D> v[3] = {hn::Load(d, &direction[0][i]), hn::Load(d, &direction[1][i]),
@@ -198,15 +233,17 @@ struct RayBatch {
       const auto sound =
           hn::And(hn::And(hn::Le(farthest, hn::Set(d, cells.scale.far_origin)),
                           hn::Eq(hn::Add(hn::Add(o[0], o[1]), o[2]), hn::Add(hn::Add(o[0], o[1]), o[2]))),
-                  hn::And(hn::Ge(square, hn::Set(d, 0x1p-200)), hn::Le(square, hn::Set(d, 0x1p200))));
+                  hn::And(hn::Ge(square, hn::Set(d, cells.scale.least_square)),
+                          hn::Le(square, hn::Set(d, CellScale::most_square))));
       const auto speed = hn::Sqrt(square);
-      const auto inverse_length = hn::Div(unit, speed);
       const auto least = hn::Mul(hn::Set(d, cells.records.least_slope), speed);
+      auto any_flat = hn::Le(hn::Abs(v[0]), least);
+      for (std::size_t a = 1; a < 3; ++a) any_flat = hn::Or(any_flat, hn::Le(hn::Abs(v[a]), least));
+      flat |= !hn::AllFalse(d, any_flat);
+      hn::Vec<D> inverse[3], inverse_length;
+      Invert(v, speed, hn::Set(d, cells.scale.most_inverse), inverse, inverse_length);
       auto first = zero, last = hn::Load(d, &end[i]);
-      hn::Vec<D> inverse[3];
       for (std::size_t a = 0; a < 3; ++a) {
-        flat |= !hn::AllFalse(d, hn::Le(hn::Abs(v[a]), least));
-        inverse[a] = hn::Max(hn::Min(hn::Div(unit, v[a]), most), hn::Neg(most));
         const double low = cells.box.lower[static_cast<int>(a)], high = cells.box.upper[static_cast<int>(a)];
         const auto to_low = hn::Mul(hn::Sub(hn::Set(d, low), o[a]), inverse[a]);
         const auto to_high = hn::Mul(hn::Sub(hn::Set(d, high), o[a]), inverse[a]);
@@ -224,8 +261,10 @@ struct RayBatch {
         const auto from = hn::Add(hn::Sub(o[a], hn::Set(d, cells.center[static_cast<int>(a)])), hn::Mul(begin, v[a]));
         hn::Store(from, d, &origin[a][i]);
         hn::Store(inverse[a], d, &slowness[a][i]);
-        hn::Store(hn::DemoteTo(f, from), f, &box_origin[a][i]);
-        hn::Store(hn::DemoteTo(f, inverse[a]), f, &box_inverse[a][i]);
+        const auto box_from = hn::DemoteTo(f, from), box_slowness = hn::DemoteTo(f, inverse[a]);
+        hn::Store(box_from, f, &box_origin[a][i]);
+        hn::Store(box_slowness, f, &box_inverse[a][i]);
+        hn::Store(hn::Mul(box_from, box_slowness), f, &box_shift[a][i]);
       }
       // Rounded up; below zero for rays that do not meet the scene.
       const auto way = hn::Mul(hn::Sub(last, first), hn::Set(d, 1 + 0x1p-20));
@@ -247,13 +286,7 @@ struct RayBatch {
     }
   }
 
-  void FindOctants() {
-    for (std::size_t i = 0; i < count; ++i) {
-      octant[i] = static_cast<std::uint8_t>(static_cast<int>(box_inverse[0][i] < 0) |
-                                            static_cast<int>(box_inverse[1][i] < 0) << 1 |
-                                            static_cast<int>(box_inverse[2][i] < 0) << 2);
-    }
-  }
+  std::span<const RayQuery> later_;
 
  public:
   static std::uint32_t Bits(hn::Mask<D> mask) {

@@ -17,7 +17,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 template <class D, class Record>
 HWY_INLINE Stretch<D> BallStretch(D d, const SceneRays<D>& ray, const Record& r) {

@@ -15,7 +15,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 /// Products and sums that round once where the machine can: for what is within the certainty of a record in any case,
 /// and needs no bits of its own.
@@ -36,7 +35,7 @@ struct SceneRays {
   hn::Vec<D> inverse_square;  ///< 1 / |direction|²
   hn::Vec<D> length;          ///< |direction|
   hn::Vec<D> near;            ///< crossings no further apart than this may be one boundary
-  bool flat = false;          ///< some ray is nearly parallel to an axis plane
+  bool flat;                  ///< some ray is nearly parallel to an axis plane
 };
 
 /// The part of a ray inside a convex solid, or inside the only part of another that it meets.

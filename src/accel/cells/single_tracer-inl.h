@@ -18,12 +18,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-/// Whether single precision and the records can follow a ray; false for what is not a number, too.
-inline bool IsSound(const CellTree& cells, const Vec3& origin, double square) {
-  return max_component(abs(origin)) <= cells.scale.far_origin && square >= 0x1p-200 && square <= 0x1p200;
-}
 
 /// The truth table by which the first boundary is found of a ray that comes into a cell of several media in a state.
 /// @param value  of the points there
@@ -38,107 +32,114 @@ HWY_NOINLINE inline std::uint64_t TableFrom(const CellTree& cells, const Cell& c
 class SingleTracer {
  public:
   SingleTracer(const CellTree& cells, const CsgTree& tree, CellScratch& scratch, Wanted wanted)
-      : cells_(cells), exact_(cells, tree, scratch), wanted_(wanted), tolerance_(tree.tolerance.distance) {}
+      : cells_(cells), exact_(cells, tree, asked_, scratch), wanted_(wanted), tolerance_(tree.tolerance.distance) {}
 
   /// @param answer  as it is made
-  void Trace(const RayQuery& query, CellAnswer& answer, TraversalCounters& counters) {
-    query_ = &query;
+  HWY_INLINE void Trace(const RayQuery& query, CellAnswer& answer, TraversalCounters& counters) {
     const double square = dot(query.ray.direction, query.ray.direction);
-    if (!IsSound(cells_, query.ray.origin, square)) {
+    if (BoxRay ray; !IsSound(query.ray, square)) {
       answer.kind = CellAnswer::Kind::unsure;
-    } else if (Begin(square)) {
-      Walk(answer, counters);
+    } else if (Begin(query, square, ray)) {
+      Walk(ray, answer, counters);
     }
   }
 
   /// Follows a ray through all its boundaries, the nearest first. See trace_all().
   bool TraceAll(const RayQuery& query, TellBoundary tell, TraversalCounters& counters) {
-    query_ = &query;
     const double square = dot(query.ray.direction, query.ray.direction);
-    if (!IsSound(cells_, query.ray.origin, square)) return false;
-    return !Begin(square) || WalkOn(tell, counters);
+    if (!IsSound(query.ray, square)) return false;
+    BoxRay ray;
+    return !Begin(query, square, ray) || WalkOn(ray, tell, counters);
   }
 
   /// What a boundary amounts to that plain arithmetic found: its t, its leaf and whether the ray enters that are known.
   /// The ray is the one that was begun last.
-  void Finish(CellAnswer& answer) {
+  HWY_INLINE void Finish(CellAnswer& answer) {
+    const double t_max = asked_.query->t_max;
     answer.kind = CellAnswer::Kind::boundary;
-    const bool at_end = std::fabs(answer.t - query_->t_max) <= 2 * near_;
-    if (wanted_ != Wanted::occlusion || at_end) {
-      NeedExact();
-      if (!exact_.Finish(answer)) {
-        answer.kind = CellAnswer::Kind::unsure;
-        return;
-      }
+    const bool at_end = std::fabs(answer.t - t_max) <= 2 * asked_.near;
+    if ((wanted_ != Wanted::occlusion || at_end) && !exact_.Finish(answer)) {
+      answer.kind = CellAnswer::Kind::unsure;
+    } else if (!(answer.t < t_max)) {
+      answer.kind = CellAnswer::Kind::nothing;
     }
-    if (!(answer.t < query_->t_max)) answer.kind = CellAnswer::Kind::nothing;
   }
 
   /// Begins a ray that is not traced here, for Finish().
-  void BeginKnown(const RayQuery& query) {
-    query_ = &query;
-    BeginScale(dot(query.ray.direction, query.ray.direction));
-  }
+  void BeginKnown(const RayQuery& query) { BeginScale(query, dot(query.ray.direction, query.ray.direction)); }
 
   /// The same where several faces are known to coincide, about where and in which cell. Begins the ray.
   void FinishGroup(const RayQuery& query, CellAnswer& answer) {
-    query_ = &query;
     Outcome outcome = Outcome::unsure;
-    if (Begin(dot(query.ray.direction, query.ray.direction))) {
+    if (BoxRay ray; Begin(query, dot(query.ray.direction, query.ray.direction), ray)) {
       const double t = answer.t - start_;
-      outcome = Meet(cells_.cells[answer.cell], std::max(t - 2 * near_, 0.0), t + 2 * near_, answer);
+      outcome = Meet(cells_.cells[answer.cell], std::max(t - 2 * asked_.near, 0.0), t + 2 * asked_.near, answer);
     }
     if (outcome != Outcome::met) answer.kind = CellAnswer::Kind::unsure;
   }
 
  private:
-  // Where the line is in the scene's box, all axes at once where a vector has room for them; of what stands in the
-  // fourth place nothing is asked.
-  bool Begin(double square) {
-    using Axes = hn::CappedTag<double, 4>;
+  using Axes = hn::CappedTag<double, 4>;
+  static constexpr double never = std::numeric_limits<double>::infinity();
+
+  // Whether single precision and the records can follow a ray; false for what is not a number, too.
+  HWY_INLINE bool IsSound(const Ray& ray, double square) const {
+    bool is_near = true;
+    for (std::size_t a = 0; a < 4; a += hn::MaxLanes(Axes())) {
+      const auto distance = hn::Abs(hn::LoadU(Axes(), &ray.origin.x + a));
+      const auto far = hn::Not(hn::Le(distance, hn::Set(Axes(), cells_.scale.far_origin)));
+      is_near &= hn::AllFalse(Axes(), hn::And(far, hn::FirstN(Axes(), 3 - a)));
+    }
+    return is_near && square >= cells_.scale.least_square && square <= CellScale::most_square;
+  }
+
+  // Where the line is in the scene's box, all axes at once where a vector has room for them.
+  HWY_INLINE bool Begin(const RayQuery& query, double square, BoxRay& box_ray) {
     const Axes axes;
     const hn::Rebind<float, Axes> floats;
-    BeginScale(square);
-    const double* const o = &query_->ray.origin.x;
-    const double* const d = &query_->ray.direction.x;
-    const auto most = hn::Set(axes, 0x1p100);
-    const auto least = hn::Set(axes, cells_.records.least_slope * scale_.length);
-    HWY_ALIGN double in[4];
-    HWY_ALIGN double out[4];
+    BeginScale(query, square);
+    const double* const o = &query.ray.origin.x;
+    const double* const d = &query.ray.direction.x;
+    const auto most = hn::Set(axes, cells_.scale.most_inverse);
+    const auto least = hn::Set(axes, cells_.records.least_slope * asked_.length);
     HWY_ALIGN double slowness[4];
     HWY_ALIGN double from[4];
+    HWY_ALIGN float box_inverse[4];
+    HWY_ALIGN float box_shift[4];
     std::uint32_t flat = 0, backward = 0;
+    auto first = hn::Zero(axes), last = hn::Set(axes, query.t_max);
     for (std::size_t a = 0; a < 4; a += hn::MaxLanes(axes)) {
+      // What stands in the fourth place is no axis.
+      const auto is_axis = hn::FirstN(axes, 3 - a);
       const auto origin = hn::LoadU(axes, o + a), direction = hn::LoadU(axes, d + a);
       const auto inverse = hn::Max(hn::Min(hn::Div(hn::Set(axes, 1.0), direction), most), hn::Neg(most));
       const auto to_low = hn::Mul(hn::Sub(hn::Load(axes, &cells_.frame.low[a]), origin), inverse);
       const auto to_high = hn::Mul(hn::Sub(hn::Load(axes, &cells_.frame.high[a]), origin), inverse);
-      hn::Store(hn::Min(to_low, to_high), axes, in + a);
-      hn::Store(hn::Max(to_low, to_high), axes, out + a);
+      first = hn::IfThenElse(is_axis, hn::Max(first, hn::Min(to_low, to_high)), first);
+      last = hn::IfThenElse(is_axis, hn::Min(last, hn::Max(to_low, to_high)), last);
       hn::Store(inverse, axes, slowness + a);
-      hn::Store(hn::DemoteTo(floats, inverse), floats, inverse_ + a);
       flat |= MaskOf(axes, hn::Le(hn::Abs(direction), least)) << a;
       backward |= MaskOf(axes, hn::Lt(inverse, hn::Zero(axes))) << a;
     }
-    const double near = std::max({0.0, in[0], in[1], in[2]}), far = std::min({query_->t_max, out[0], out[1], out[2]});
+    const double near = hn::GetLane(hn::MaxOfLanes(axes, first)), far = hn::GetLane(hn::MinOfLanes(axes, last));
     if (!(near <= far)) return false;
     start_ = near;
-    octant_ = backward & 7;
-    // Rounded up; the slack of the boxes covers half an ulp, not what lies behind t_max.
-    t_end_ = static_cast<float>((far - near) * (1 + 0x1p-20));
     for (std::size_t a = 0; a < 4; a += hn::MaxLanes(axes)) {
       const auto to_center = hn::Sub(hn::LoadU(axes, o + a), hn::Load(axes, &cells_.frame.center[a]));
       const auto place = hn::Add(to_center, hn::Mul(hn::Set(axes, near), hn::LoadU(axes, d + a)));
+      const auto inverse = hn::DemoteTo(floats, hn::Load(axes, slowness + a));
       hn::Store(place, axes, from + a);
-      hn::Store(hn::DemoteTo(floats, place), floats, origin_ + a);
+      hn::Store(inverse, floats, box_inverse + a);
+      hn::Store(hn::Mul(hn::DemoteTo(floats, place), inverse), floats, box_shift + a);
     }
-    const One one;
-    ray_.origin = {hn::Set(one, from[0]), hn::Set(one, from[1]), hn::Set(one, from[2])};
-    ray_.direction = {hn::Set(one, d[0]), hn::Set(one, d[1]), hn::Set(one, d[2])};
-    ray_.slowness = {hn::Set(one, slowness[0]), hn::Set(one, slowness[1]), hn::Set(one, slowness[2])};
-    ray_.inverse_square = hn::Set(one, scale_.inverse_square);
-    ray_.length = hn::Set(one, scale_.length);
-    ray_.near = hn::Set(one, near_);
+    // Rounded up; the slack of the boxes covers half an ulp, not what lies behind t_max.
+    box_ray = BoxRay(box_shift, box_inverse, static_cast<float>((far - near) * (1 + 0x1p-20)), backward & 7);
+    ray_.origin = {from[0], from[1], from[2]};
+    ray_.direction = {d[0], d[1], d[2]};
+    ray_.slowness = {slowness[0], slowness[1], slowness[2]};
+    ray_.inverse_square = asked_.inverse_square;
+    ray_.length = asked_.length;
+    ray_.near = asked_.near;
     ray_.flat = (flat & 7) != 0;
     return true;
   }
@@ -150,18 +151,13 @@ class SingleTracer {
     return bits[0];
   }
 
-  void BeginScale(double square) {
-    scale_ = {square, 1 / square, std::sqrt(square)};
-    const double slowness = 1 / scale_.length;
-    near_ = 2 * cells_.scale.resolution * slowness;
-    together_ = tolerance_ * slowness;
-    exact_begun_ = false;
+  HWY_INLINE void BeginScale(const RayQuery& query, double square) {
+    asked_.Begin(query, square, cells_.scale.resolution, tolerance_);
+    exact_.Begin();
   }
 
-  void Walk(CellAnswer& answer, TraversalCounters& counters) {
+  HWY_INLINE void Walk(const BoxRay& ray, CellAnswer& answer, TraversalCounters& counters) {
     NodeStack stack;
-    const BoxRay ray{
-        {&origin_[0], &origin_[1], &origin_[2]}, {&inverse_[0], &inverse_[1], &inverse_[2]}, t_end_, octant_};
     std::uint64_t visited = 0;
     tests_ = 0;
     NodeStack::Visit visit{ChildRef::node(0), 0, 0};
@@ -172,7 +168,8 @@ class SingleTracer {
         ++visited;
         const Cell& cell = cells_.cells[visit.child.index()];
         answer.cell = visit.child.index();
-        const Outcome outcome = Meet(cell, visit.t_in, visit.t_out, answer);
+        const Outcome outcome = cell.leaf_count == 1 ? MeetLeaf(cell, visit.t_in, visit.t_out, answer)
+                                                     : Meet(cell, visit.t_in, visit.t_out, answer);
         if (outcome == Outcome::unsure) answer.kind = CellAnswer::Kind::unsure;
         if (outcome != Outcome::passed) break;
       }
@@ -184,10 +181,8 @@ class SingleTracer {
   }
 
   // Walk() for all boundaries.
-  bool WalkOn(TellBoundary tell, TraversalCounters& counters) {
+  bool WalkOn(const BoxRay& ray, TellBoundary tell, TraversalCounters& counters) {
     NodeStack stack;
-    const BoxRay ray{
-        {&origin_[0], &origin_[1], &origin_[2]}, {&inverse_[0], &inverse_[1], &inverse_[2]}, t_end_, octant_};
     stack.Open(cells_.nodes.front(), ray);
     tests_ = 0;
     passed_ = -std::numeric_limits<double>::infinity();
@@ -217,13 +212,12 @@ class SingleTracer {
     answer = CellAnswer{};
     answer.cell = index;
     Outcome outcome = Outcome::passed;
-    if (resolved_ && t_in + start_ <= passed_ + 4 * near_) {
-      NeedExact();
+    if (resolved_ && t_in + start_ <= passed_ + 4 * asked_.near) {
       outcome = exact_.Resolve(cell, std::max(t_in + start_, passed_), t_out + start_, answer);
-      const bool is_before_end = answer.t < query_->t_max;
+      const bool is_before_end = answer.t < asked_.query->t_max;
       answer.kind = is_before_end ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
     } else {
-      const double from = std::max(t_in, passed_ + 0.5 * near_ - start_);
+      const double from = std::max(t_in, passed_ + 0.5 * asked_.near - start_);
       if (!(from <= t_out)) return Outcome::passed;
       const bool resolved = std::exchange(resolved_, false);
       outcome = Meet(cell, from, t_out, answer);
@@ -233,25 +227,18 @@ class SingleTracer {
     return answer.kind == CellAnswer::Kind::unsure || !(answer.t > passed_) ? Outcome::unsure : Outcome::met;
   }
 
-  void NeedExact() {
-    if (exact_begun_) return;
-    exact_.Begin(*query_, scale_, 0.5 * near_, together_);
-    exact_begun_ = true;
-  }
-
   // Finish() for crossings that coincide, behind which the state is `after`.
   HWY_NOINLINE void FinishGroup(const Cell& cell, const CrossingGroup& group, std::uint32_t after, CellAnswer& answer) {
     answer.kind = CellAnswer::Kind::boundary;
-    if (wanted_ == Wanted::occlusion && answer.t + 2 * near_ < query_->t_max) return;
-    NeedExact();
+    if (wanted_ == Wanted::occlusion && answer.t + 2 * asked_.near < asked_.query->t_max) return;
     if (!exact_.FinishGroup(cell, group, start_, after, wanted_ == Wanted::hit, answer)) {
-      const double before = std::max(answer.t - 2 * near_, 0.0), behind = answer.t + 2 * near_;
+      const double before = std::max(answer.t - 2 * asked_.near, 0.0), behind = answer.t + 2 * asked_.near;
       if (Ask(cell, before, behind, answer) != Outcome::met) {
         answer.kind = CellAnswer::Kind::unsure;
         return;
       }
     }
-    if (!(answer.t < query_->t_max)) answer.kind = CellAnswer::Kind::nothing;
+    if (!(answer.t < asked_.query->t_max)) answer.kind = CellAnswer::Kind::nothing;
   }
 
   // What the exact arithmetic says of a cell. Here t is that of the query.
@@ -266,51 +253,71 @@ class SingleTracer {
   }
 
   HWY_NOINLINE Outcome MeetExactly(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
-    NeedExact();
     const Outcome outcome = Ask(cell, t_in + start_, t_out + start_, answer);
     if (outcome == Outcome::met) {
-      answer.kind = answer.t < query_->t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
+      answer.kind = answer.t < asked_.query->t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
     }
     return outcome;
   }
 
+  // Where the ray meets a leaf of a cell, by its place; nowhere, if it misses it. @return whether that is certain
+  HWY_INLINE bool FindLeaf(const Cell& cell, std::uint32_t place, double t_in, double t_out, double& enter,
+                           double& leave) const {
+    const Stretch<One> s =
+        FindStretch(One(), ray_, cells_.records, cell.records[place], cells_.scale.reach, t_in, t_out, true);
+    if (HWY_UNLIKELY(s.unsure)) return false;
+    enter = s.hit ? s.enter : never;
+    leave = s.hit ? s.leave : never;
+    const bool starts = t_in + start_ <= asked_.near;
+    return HWY_LIKELY(!starts) || ClearStart(*asked_.query, cell, place, asked_.near, cells_.records, enter, leave);
+  }
+
+  // Meet() for a cell of one leaf: where the ray crosses that, the value changes. No other crossing is near, for an
+  // interval that is certain is longer.
+  HWY_INLINE Outcome MeetLeaf(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
+    ++tests_;
+    double enter, leave;
+    if (!FindLeaf(cell, 0, t_in, t_out, enter, leave)) return MeetExactly(cell, t_in, t_out, answer);
+    const bool inside = enter <= t_in;
+    const double t = inside ? leave : enter;
+    if (!(t > t_in && t <= t_out)) return Outcome::passed;
+    answer.before = static_cast<std::uint8_t>(cell.table >> (inside ? 1 : 0) & 1);
+    answer.after = answer.before ^ 1;
+    answer.t = t + start_;
+    answer.leaf_entering = !inside;
+    answer.surface = {cell.leaves[0], 0};
+    Finish(answer);
+    return Outcome::met;
+  }
+
   // Here t is counted from where the ray meets the scene.
-  HWY_INLINE Outcome Meet(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
+  HWY_NOINLINE Outcome Meet(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
     if (cell.extended || cell.general) return MeetExactly(cell, t_in, t_out, answer);
-    // A leaf that the ray misses is crossed nowhere.
-    constexpr double never = std::numeric_limits<double>::infinity();
     double enter[Cell::most_tabled], leave[Cell::most_tabled], next[Cell::most_tabled];
-    const One one;
-    const auto all = hn::Eq(hn::Zero(one), hn::Zero(one));
-    std::uint32_t state = 0;
+    std::uint32_t state = 0, first = 0;
+    double t = never;  // of the next crossing, the first of those at that double being `first`
     const std::uint32_t count = cell.leaf_count;
     tests_ += count;
-    const bool starts = t_in + start_ <= near_;
     for (std::uint32_t i = 0; i < count; ++i) {
-      const Stretch<One> s = FindStretch(one, ray_, cells_.records, cell.records[i], cells_.scale.reach,
-                                         hn::Set(one, t_in), hn::Set(one, t_out), all);
-      if (HWY_UNLIKELY(!hn::AllFalse(one, s.unsure))) return MeetExactly(cell, t_in, t_out, answer);
-      const bool hit = !hn::AllFalse(one, s.hit);
-      enter[i] = hit ? hn::GetLane(s.enter) : never;
-      leave[i] = hit ? hn::GetLane(s.leave) : never;
-      if (starts && !ClearStart(*query_, cell, i, near_, cells_.records, enter[i], leave[i])) {
-        return MeetExactly(cell, t_in, t_out, answer);
-      }
+      if (!FindLeaf(cell, i, t_in, t_out, enter[i], leave[i])) return MeetExactly(cell, t_in, t_out, answer);
       const bool inside = enter[i] <= t_in && t_in < leave[i];
       state |= static_cast<std::uint32_t>(inside) << i;
       next[i] = inside ? leave[i] : enter[i] > t_in ? enter[i] : never;
+      first = next[i] < t ? i : first;
+      t = next[i] < t ? next[i] : t;
     }
+    if (!(t <= t_out)) return Outcome::passed;
     const bool has_several = cell.values == Cell::Values::several;
     const std::uint64_t table = HWY_UNLIKELY(has_several) ? TableFrom(cells_, cell, state, answer.before) : cell.table;
     const std::uint64_t before = table >> state & 1;
-    for (;;) {
-      std::uint32_t first = 0;
-      double t = next[0];
-      for (std::uint32_t i = 1; i < count; ++i) {
+    const auto find_next = [&] {
+      t = never;
+      for (std::uint32_t i = 0; i < count; ++i) {
         first = next[i] < t ? i : first;
         t = next[i] < t ? next[i] : t;
       }
-      if (!(t <= t_out)) return Outcome::passed;
+    };
+    for (; t <= t_out; find_next()) {
       // Crossings at the same double are one step: a change that is undone there is none.
       for (std::uint32_t i = 0; i < count; ++i) {
         if (next[i] != t) continue;
@@ -320,12 +327,14 @@ class SingleTracer {
       if ((table >> state & 1) == before) continue;
       std::uint32_t ends = 0;
       for (std::uint32_t i = 0; i < count; ++i) {
-        ends += static_cast<std::uint32_t>(std::fabs(enter[i] - t) <= near_);
-        ends += static_cast<std::uint32_t>(std::fabs(leave[i] - t) <= near_);
+        ends += static_cast<std::uint32_t>(std::fabs(enter[i] - t) <= asked_.near);
+        ends += static_cast<std::uint32_t>(std::fabs(leave[i] - t) <= asked_.near);
       }
       if (ends > 1) {
         CrossingGroup group;
-        if (!group.collect(count, enter, leave, t, near_, together_)) return MeetExactly(cell, t_in, t_out, answer);
+        if (!group.collect(count, enter, leave, t, asked_.near, asked_.together)) {
+          return MeetExactly(cell, t_in, t_out, answer);
+        }
         const std::uint32_t after = group.after(state);
         if ((table >> after & 1) != before) {
           answer.t = t + start_;
@@ -348,6 +357,7 @@ class SingleTracer {
       Finish(answer);
       return Outcome::met;
     }
+    return Outcome::passed;
   }
 
  public:
@@ -367,23 +377,15 @@ class SingleTracer {
 
  private:
   const CellTree& cells_;
+  AskedRay asked_;
   ExactCell exact_;
   const Wanted wanted_;
   const double tolerance_;
-  const RayQuery* query_ = nullptr;
-  double start_ = 0;
-  double near_ = 0;
-  double together_ = 0;
-  RayScale scale_;
-  bool exact_begun_ = false;
-  double passed_ = 0;      // the boundary that was passed last
-  bool resolved_ = false;  // the classifier found it
-  HWY_ALIGN float origin_[4] = {};
-  HWY_ALIGN float inverse_[4] = {};
-  std::uint32_t octant_ = 0;  // bit a: backward along axis a
-  float t_end_ = 0;
+  double start_;
+  double passed_;  // the boundary that was passed last
+  bool resolved_;  // the classifier found it
   SceneRays<One> ray_;
-  std::uint64_t tests_ = 0;
+  std::uint64_t tests_;
 };
 
 }  // namespace HWY_NAMESPACE

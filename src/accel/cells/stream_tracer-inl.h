@@ -18,7 +18,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 /// Follows some rays of a batch at once, each through nodes of its own, so that none waits for what another has to
 /// wait for. When each has come to a cell, the leaves of those cells are met kind by kind, one leaf and ray a lane, and
@@ -56,11 +55,13 @@ class StreamTracer {
   static constexpr std::uint32_t kinds = static_cast<std::uint32_t>(RecordKind::torus) + 1;
   static constexpr ChildRef end_of_stack{~std::uint32_t{0}};
 
-  // A ray under way, and where it is.
-  struct Slot {
+  // A ray under way, and where it is: all that opening a node needs, in one line of the cache.
+  struct alignas(64) Slot {
     std::uint32_t ray;
     std::uint32_t index;  // of the node that it opens next, or the cell that it meets
     float t_in, t_out;
+    float shift[3], inverse[3], end;  // see BoxRay
+    std::uint32_t octant;
   };
 
   // Begins the next ray in a slot. @return whether there is one
@@ -68,7 +69,14 @@ class StreamTracer {
     if (left_ == 0) return false;
     const auto ray = static_cast<std::uint32_t>(std::countr_zero(left_));
     left_ &= left_ - 1;
-    slots_[slot].ray = ray;
+    Slot& s = slots_[slot];
+    s.ray = ray;
+    for (std::size_t a = 0; a < 3; ++a) {
+      s.shift[a] = rays_.box_shift[a][ray];
+      s.inverse[a] = rays_.box_inverse[a][ray];
+    }
+    s.end = rays_.box_end[ray];
+    s.octant = rays_.octant(ray);
     NodeStack& stack = stacks_[slot];
     stack.Clear();
     stack.Push({end_of_stack, 0, 0});
@@ -103,12 +111,8 @@ class StreamTracer {
     const std::size_t count = slots_open_;
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint8_t slot = open_[k];
-      const std::size_t i = slots_[slot].ray;
-      const BoxRay ray{{&rays_.box_origin[0][i], &rays_.box_origin[1][i], &rays_.box_origin[2][i]},
-                       {&rays_.box_inverse[0][i], &rays_.box_inverse[1][i], &rays_.box_inverse[2][i]},
-                       rays_.box_end[i],
-                       rays_.octant[i]};
-      stacks_[slot].Open(cells_.nodes[slots_[slot].index], ray);
+      const Slot& s = slots_[slot];
+      stacks_[slot].Open(cells_.nodes[s.index], BoxRay(s.shift, s.inverse, s.end, s.octant));
     }
     slots_open_ = 0;
     for (std::size_t k = 0; k < count; ++k) Advance(open_[k]);
@@ -239,8 +243,7 @@ class StreamTracer {
       const std::size_t lane = list.lane[at];
       const Stretch<One> s =
           FindStretch(one, rays_.At(one, &ray_[lane]), RecordKind::convex, SharedRecord<One>{list.record[at]},
-                      cells_.records.least_slope, cells_.scale.reach, hn::Set(one, t_in_[lane]),
-                      hn::Set(one, t_out_[lane]), hn::FirstN(one, 1));
+                      cells_.records.least_slope, cells_.scale.reach, t_in_[lane], t_out_[lane], true);
       Keep(one, list, at, 1, s);
     }
   }
@@ -313,9 +316,8 @@ class StreamTracer {
         const std::size_t i = slots_[slot].ray;
         const std::uint32_t index = slots_[slot].index;
         found_.Keep(rays_, i,
-                    {t[lane], index, cells_.cells[index].leaves[static_cast<std::size_t>(place[lane])],
-                     BatchFindings::flags_of((enters >> lane & 1) != 0, (crowded >> lane & 1) != 0),
-                     BatchFindings::values_of(before[lane], behind[lane])},
+                    {t[lane], index, cells_.cells[index].leaves[static_cast<std::size_t>(place[lane])].get(),
+                     before[lane], behind[lane], (enters >> lane & 1) != 0, (crowded >> lane & 1) != 0},
                     any_will_do_);
         if (Refill(slot)) Advance(slot);
       } else {

@@ -17,7 +17,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 /// Where rays meet the leaves of their cells, and what comes of it.
 template <class D>

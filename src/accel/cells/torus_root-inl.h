@@ -15,14 +15,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-/// The largest powers of two that are no greater than positive numbers.
-template <class D>
-HWY_INLINE hn::Vec<D> PowerOfTwoBelow(D d, hn::Vec<D> x) {
-  const hn::RebindToUnsigned<D> u;
-  return hn::BitCast(d, hn::And(hn::BitCast(u, x), hn::Set(u, 0x7ff0000000000000)));
-}
 
 /// The crossing that spans() reports near a place on each ray, for rays that do not start on the torus:
 /// SettledTorusRoot, by the same operations in the same order.
@@ -39,7 +31,7 @@ HWY_INLINE CrossingLanes<D> TorusCrossing(D d, const RayLanes<D>& ray, const Lan
   const auto R = shape.Get(&Shape::major), r = shape.Get(&Shape::minor);
   const auto one = hn::Set(d, 1.0), two = hn::Set(d, 2.0);
   const auto square = Dot(local.direction, local.direction), speed = hn::Sqrt(square);
-  const auto step = hn::Mul(PowerOfTwoBelow(d, hn::Div(r, speed)), hn::Set(d, Root::relative_step));
+  const auto step = hn::Mul(hn::PowerOfTwoBelow(d, hn::Div(r, speed)), hn::Set(d, Root::relative_step));
   const auto steps = hn::Mul(hn::Sub(near, local.shift), hn::Div(one, step));
   const auto nearest = hn::Round(steps);
   // As many steps away from the middle between two multiples as the place may be off.

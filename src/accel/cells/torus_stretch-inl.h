@@ -14,7 +14,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 /// f of TorusQuartic along rays: f(s) = w(s)² + z(s)² - r², negative in the ring.
 template <class D>
