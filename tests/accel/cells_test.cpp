@@ -46,6 +46,52 @@ TEST(Cells, KnowWhoOwnsACutFace) {
   expect_same_answers(tree, "cells", 200);
 }
 
+// Who owns a place matters only where another would show another material.
+TEST(Cells, TellOwnersApartByTheirMaterials) {
+  const auto owners_in_doubt = [](int other_material) {
+    SceneBuilder b;
+    const SceneNodeId bodies =
+        b.unite({b.material(0, b.sphere(1)), b.material(0, b.translate({0.4, 0, 0}, b.sphere(1))),
+                 b.material(other_material, b.translate({0, 0.4, 0}, b.sphere(1)))});
+    const CsgTree tree = b.tree(b.subtract({bodies, b.translate({0.2, 0.2, 1}, b.sphere(0.5))}));
+    expect_same_answers(tree, "cells", 100);
+    return detail(**build_accelerator("cells", tree), "cells of several materials");
+  };
+  EXPECT_EQ(owners_in_doubt(0), 0);
+  EXPECT_GT(owners_in_doubt(1), 0);
+}
+
+// Rays to the tip of a cone graze it there; what they meet on the way is as certain as for their neighbours.
+TEST(Cells, RaysToATipAreLikeTheirNeighbours) {
+  SceneBuilder b;
+  std::vector<SceneNodeId> parts{b.sphere(2), b.sphere(1.8)};
+  for (const Vec3 turn : {Vec3{0, 0, 0}, Vec3{40, 0, 0}, Vec3{100, 20, 0}, Vec3{-70, 50, 10}, Vec3{160, 0, 0}}) {
+    parts.push_back(b.rotate(turn, b.primitive("cone", {3.0, 0.0, 1.2, false})));
+  }
+  const CsgTree tree = b.tree(b.subtract(parts));
+  const auto none = build_accelerator("none", tree), judged = build_accelerator("cells", tree);
+  const auto tests_of_rays = [&](double aside) {
+    const auto context = (*none)->make_context(), other = (*judged)->make_context();
+    Draw draw(38);
+    std::vector<RayQuery> queries(2000);
+    for (RayQuery& query : queries) {
+      query.ray.origin = 4 * draw.direction();
+      query.ray.direction = aside * draw.direction() - query.ray.origin;
+      query.t_max = 0.9;
+    }
+    const auto [hits, boundaries, occluded] = ask_together(**judged, queries, *other);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const Hit hit = (*none)->first_hit(queries[i], *context);
+      EXPECT_TRUE(battery::same_hit(hit, hits[i]))
+          << battery::describe(hit) << " against " << battery::describe(hits[i]);
+      EXPECT_EQ(boundaries[i].t, hit.t);
+      EXPECT_EQ(occluded[i] != 0, hit.found());
+    }
+    return static_cast<double>(other->statistics.total().primitive_tests);
+  };
+  EXPECT_LT(tests_of_rays(0), 1.1 * tests_of_rays(0.05));
+}
+
 TEST(Cells, FirstBoundariesAndOcclusionAreThoseOfFirstHits) {
   for (const gallery::Scene& scene : gallery::scenes) {
     SCOPED_TRACE(scene.name);

@@ -9,11 +9,11 @@
 
 namespace tenon::cells {
 
-/// The leaf that owns points of the solid; none where nobody does.
+/// The leaf that owns points of the solid, or one of several whose material is the same; none where nobody does.
 struct CellOwner {
   LeafId leaf;
 
-  /// Different leaves own them: which one, the exact structure knows.
+  /// Leaves of different materials own them: which one, the exact structure knows.
   static constexpr CellOwner varying() { return {LeafId{LeafId::none_value - 1}}; }
   constexpr bool varies() const { return *this == varying(); }
   friend constexpr bool operator==(CellOwner, CellOwner) = default;

@@ -68,7 +68,7 @@ class CellState {
     if (!cell_->extended) return cells_->owner_of(*cell_, table_value()).leaf;
     const Owner owner = point_value().owner;
     if (owner.is_nobody()) return {};
-    return owner.varies() ? CellOwner::varying().leaf : cells_->ranks.leaf(owner);
+    return cells_->ranks.is_certain(owner) ? cells_->ranks.leaf(owner) : CellOwner::varying().leaf;
   }
 
  private:

@@ -14,6 +14,12 @@ OwnerRanks::OwnerRanks(const CsgTree& tree) : tree_(&tree) {
     ranks_.resize(count);
     for (std::size_t rank = 0; rank < count; ++rank) ranks_[leaves_[rank].get()] = static_cast<std::uint32_t>(rank);
   }
+  stretches_.resize(count);
+  for (std::size_t rank = 1; rank < count; ++rank) {
+    const Owner here = Owner::of_rank(static_cast<std::uint32_t>(rank));
+    const Owner before = Owner::of_rank(static_cast<std::uint32_t>(rank - 1));
+    stretches_[rank] = stretches_[rank - 1] + (show_the_same(before, here) ? 0 : 1);
+  }
   if (!tree.has_media) return;
   groups_.resize(count + 1);
   const auto medium_at = [&](std::size_t rank) {

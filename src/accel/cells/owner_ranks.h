@@ -47,6 +47,11 @@ class OwnerRanks {
     return is_one_medium() || owner.is_nobody() ? medium_opaque : (*tree_)[leaf(owner)].medium;
   }
 
+  /// Whether it is known which material the points of an owner show: it is one leaf, or all that it may be have one.
+  bool is_certain(Owner owner) const { return !owner.varies() || stretches_[owner.rank()] == stretches_.back(); }
+  /// Whether owners that are certain show the same.
+  bool show_the_same(Owner a, Owner b) const { return (*tree_)[leaf(a)].material == (*tree_)[leaf(b)].material; }
+
   /// Whether it may be another medium where `a` owns points that are otherwise of `b`.
   bool overrides(Owner a, Owner b) const { return !is_one_medium() && group(a) < group(b); }
 
@@ -54,9 +59,10 @@ class OwnerRanks {
   std::uint32_t group(Owner owner) const { return owner.is_nobody() ? groups_.back() : groups_[owner.rank()]; }
 
   const CsgTree* tree_ = nullptr;
-  std::vector<std::uint32_t> ranks_;   // by leaf; empty where that is the leaf's number
-  std::vector<LeafId> leaves_;         // by rank
-  std::vector<std::uint32_t> groups_;  // by rank, then that of nobody; empty where there is one alone
+  std::vector<std::uint32_t> ranks_;      // by leaf; empty where that is the leaf's number
+  std::vector<LeafId> leaves_;            // by rank
+  std::vector<std::uint32_t> stretches_;  // by rank: stretches of ranks of one material, numbered
+  std::vector<std::uint32_t> groups_;     // by rank, then that of nobody; empty where there is one alone
 };
 
 }  // namespace tenon::cells

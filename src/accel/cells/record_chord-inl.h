@@ -99,11 +99,26 @@ HWY_INLINE Stretch<D> BoxStretch(D d, const SceneRays<D>& ray, const Record& r, 
   return s;
 }
 
+/// Lines that graze a quadric, or pass the tip of a cone, but not between two places.
+///
+/// F(t) = a t² + 2 b t + c has the discriminant D, so a F = (a t + b)² - D. With |D| up to `graze` and (a t + b)² above
+/// four times that, a F is above three times it. So |F| is more than six times the bound on its error that Certainty's
+/// graze is made from, and its sign that of a, for a is at most |direction|² in the quadric's frame.
+/// @return where that holds from t_in to t_out
+template <class D>
+HWY_NOINLINE hn::Mask<D> GrazesElsewhere(D d, hn::Vec<D> a, hn::Vec<D> b, hn::Vec<D> graze, hn::Vec<D> t_in,
+                                         hn::Vec<D> t_out) {
+  const auto first = hn::MulAdd(a, t_in, b), last = hn::MulAdd(a, t_out, b);
+  const auto least = hn::Mul(hn::Set(d, 2.0), hn::Sqrt(graze));
+  return hn::Or(hn::Gt(hn::Min(first, last), least), hn::Lt(hn::Max(first, last), hn::Neg(least)));
+}
+
 /// What of the line o + t v lies within the side of a solid of revolution, cut from the part between the caps, `s`.
-/// @param p  where its ProfileRecord stands in the record
+/// @param p            where its ProfileRecord stands in the record
+/// @param t_in, t_out  what of the line matters
 template <class D, class Record>
 HWY_INLINE void ClipSide(D d, const SceneRays<D>& ray, const Vec3Lanes<D>& o, const Vec3Lanes<D>& v, const Record& r,
-                         std::size_t p, Stretch<D>& s) {
+                         std::size_t p, hn::Vec<D> t_in, hn::Vec<D> t_out, Stretch<D>& s) {
   const auto zero = hn::Zero(d);
   const auto beta = r[p + ProfileRecord::beta], gamma = r[p + ProfileRecord::gamma];
   const auto across = hn::MulAdd(v.x, v.x, hn::Mul(v.y, v.y));
@@ -116,6 +131,11 @@ HWY_INLINE void ClipSide(D d, const SceneRays<D>& ray, const Vec3Lanes<D>& o, co
   const auto square = hn::Mul(ray.length, ray.length);
   const auto graze = hn::Mul(r[p + ProfileRecord::graze], square);
   auto unsure = hn::Le(hn::Abs(discriminant), graze);
+  if (HWY_UNLIKELY(!hn::AllFalse(d, unsure))) {
+    // What is that near to another boundary may be one with it.
+    const auto before = hn::Sub(t_in, ShortestStretch(d, ray)), behind = hn::Add(t_out, ShortestStretch(d, ray));
+    unsure = hn::AndNot(GrazesElsewhere(d, a, b, graze, before, behind), unsure);
+  }
   const auto real = hn::Gt(discriminant, graze);
   const auto root = hn::Sqrt(hn::Max(discriminant, graze));
   const auto sum = hn::IfThenElse(hn::Ge(b, zero), hn::Neg(hn::Add(b, root)), hn::Sub(root, b));
@@ -165,7 +185,8 @@ HWY_INLINE void FinishStretch(D d, const SceneRays<D>& ray, hn::Vec<D> shift, St
 }
 
 template <class D, class Record>
-HWY_INLINE Stretch<D> UprightStretch(D d, const SceneRays<D>& ray, const Record& r, double least, double reach) {
+HWY_INLINE Stretch<D> UprightStretch(D d, const SceneRays<D>& ray, const Record& r, double least, double reach,
+                                     hn::Vec<D> t_in, hn::Vec<D> t_out) {
   Vec3Lanes<D> o;
   const auto shift = Approach(ray, Sub3(ray.origin, Load3(d, r, UprightRecord::center)), o);
   constexpr std::size_t p = UprightRecord::profile;
@@ -176,13 +197,14 @@ HWY_INLINE Stretch<D> UprightStretch(D d, const SceneRays<D>& ray, const Record&
     const auto distance = hn::Sub(hn::Abs(o.z), high);
     s.unsure = DoubtFlat(d, ray.direction.z, ray.length, hn::Set(d, least), reach, distance);
   }
-  ClipSide(d, ray, o, ray.direction, r, p, s);
+  ClipSide(d, ray, o, ray.direction, r, p, hn::Sub(t_in, shift), hn::Sub(t_out, shift), s);
   FinishStretch(d, ray, shift, s);
   return s;
 }
 
 template <class D, class Record>
-HWY_INLINE Stretch<D> FrustumStretch(D d, const SceneRays<D>& ray, const Record& r, double reach) {
+HWY_INLINE Stretch<D> FrustumStretch(D d, const SceneRays<D>& ray, const Record& r, double reach, hn::Vec<D> t_in,
+                                     hn::Vec<D> t_out) {
   Vec3Lanes<D> place;
   const auto shift = Approach(ray, Sub3(ray.origin, Load3(d, r, FrustumRecord::center)), place);
   const auto o = Map3(d, r, FrustumRecord::map, place), v = Map3(d, r, FrustumRecord::map, ray.direction);
@@ -192,7 +214,7 @@ HWY_INLINE Stretch<D> FrustumStretch(D d, const SceneRays<D>& ray, const Record&
   ClipAligned(d, o.z, Slowness(d, v.z), r[p + ProfileRecord::low], high, s);
   const auto distance = hn::Sub(hn::Abs(o.z), high);
   s.unsure = DoubtFlat(d, v.z, ray.length, r[FrustumRecord::least], reach, distance);
-  ClipSide(d, ray, o, v, r, p, s);
+  ClipSide(d, ray, o, v, r, p, hn::Sub(t_in, shift), hn::Sub(t_out, shift), s);
   FinishStretch(d, ray, shift, s);
   return s;
 }
@@ -233,9 +255,9 @@ HWY_INLINE Stretch<D> FindStretch(D d, const SceneRays<D>& ray, RecordKind kind,
     case RecordKind::box:
       return BoxStretch(d, ray, r, reach);
     case RecordKind::upright:
-      return UprightStretch(d, ray, r, least_slope, reach);
+      return UprightStretch(d, ray, r, least_slope, reach, t_in, t_out);
     case RecordKind::frustum:
-      return FrustumStretch(d, ray, r, reach);
+      return FrustumStretch(d, ray, r, reach, t_in, t_out);
     case RecordKind::convex:
       // Each has planes of its own number.
       if constexpr (std::is_same_v<Record, SharedRecord<D>>) return ConvexStretch(d, ray, r, reach);

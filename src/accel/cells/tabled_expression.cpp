@@ -77,12 +77,13 @@ CellOwner TabledExpression::owner_in(std::uint64_t states) const {
   for (const Claim& claim : claims) {
     const std::uint64_t owned = claim.states & left;
     if (owned == 0) continue;
-    if (!found.is_nobody() && found != claim.owner) return CellOwner::varying();
+    if (!ranks_.is_certain(claim.owner)) return CellOwner::varying();
+    if (!found.is_nobody() && !ranks_.show_the_same(found, claim.owner)) return CellOwner::varying();
     found = claim.owner;
     left &= ~owned;
   }
   if (found.is_nobody()) return {};
-  return left != 0 || found.varies() ? CellOwner::varying() : CellOwner{ranks_.leaf(found)};
+  return left != 0 ? CellOwner::varying() : CellOwner{ranks_.leaf(found)};
 }
 
 }  // namespace tenon::cells
