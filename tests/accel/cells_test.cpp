@@ -92,6 +92,41 @@ TEST(Cells, RaysToATipAreLikeTheirNeighbours) {
   EXPECT_LT(tests_of_rays(0), 1.1 * tests_of_rays(0.05));
 }
 
+// Rays that start on a solid of revolution are certain of where they meet it again, but along its side.
+TEST(Cells, RaysFromTaperedSolidsAreLikeOthers) {
+  SceneBuilder b;
+  const SceneNodeId parts[] = {b.primitive("cone", {1.0, 0.8, 0.2, false}), b.primitive("cone", {1.0, 0.0, 0.7, true}),
+                               b.primitive("hyperboloid", {1.0, 0.6, 0.3}), b.primitive("paraboloid", {1.0, 0.6})};
+  std::vector<SceneNodeId> all;
+  for (int i = 0; i < 4; ++i) {
+    const double at = 2.0 * i;
+    all.push_back(b.translate({at, 0, 0}, b.rotate({30.0 * i, 20, 0}, parts[i])));
+    all.push_back(b.translate({at, 2, 0}, b.subtract({b.cube({1.2, 1.2, 1.2}, true), parts[i]})));
+  }
+  const CsgTree tree = b.tree(b.unite(all));
+  const auto none = build_accelerator("none", tree), judged = build_accelerator("cells", tree);
+  const auto context = (*none)->make_context(), other = (*judged)->make_context(), lifted = (*judged)->make_context();
+  Draw draw(39);
+  const Box3 box = battery::extent(tree);
+  int starts = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Vec3 at = draw.in_box(box), from = at + 10 * draw.direction();
+    const Hit start = (*none)->first_hit({{from, at - from}}, *context);
+    if (!start.found() || start.surface.face != 0) continue;
+    ++starts;
+    Vec3 direction = draw.direction();
+    if (dot(direction, start.normal) < 0) direction = -direction;
+    RayQuery query{{start.point, direction}};
+    static_cast<void>((*judged)->first_hit({{start.point + 1e-4 * start.normal, direction}}, *lifted));
+    query.from = &start;
+    const Hit hit = (*none)->first_hit(query, *context), told = (*judged)->first_hit(query, *other);
+    ASSERT_TRUE(battery::same_hit(hit, told)) << battery::describe(hit) << " against " << battery::describe(told);
+  }
+  EXPECT_GT(starts, 500);
+  EXPECT_LT(static_cast<double>(other->statistics.total().primitive_tests),
+            1.2 * static_cast<double>(lifted->statistics.total().primitive_tests));
+}
+
 TEST(Cells, FirstBoundariesAndOcclusionAreThoseOfFirstHits) {
   for (const gallery::Scene& scene : gallery::scenes) {
     SCOPED_TRACE(scene.name);

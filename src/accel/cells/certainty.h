@@ -62,6 +62,22 @@ class Certainty {
     return share < square(most_) ? share : std::numeric_limits<double>::infinity();
   }
 
+  /// The same for a solid of revolution (RevolvedQuadric::solve_from_surface): how large a, the coefficient of t², has
+  /// to be, over |direction|².
+  /// @param r       its greatest radius
+  /// @param slope   of its side; of the w(z) of RevolvedQuadric
+  /// @param linear  the linear term there
+  double least_certain_quadratic(double r, double slope, double linear) const {
+    const double d = length(direction_), o = length(place_), m = most_, s = std::fabs(slope), l = std::fabs(linear);
+    const double w_error = s * o + gamma(5) * 2 * r;
+    const double a_error = (2 + s * s) * (2 * m + d) * d + gamma(12) * (1 + s * s) * m * m;
+    const double b_error = 2 * (r + o) * d + 2 * m * o + (r + w_error) * s * d + s * m * w_error + 0.5 * l * d +
+                           gamma(10) * (2 * r + s * r + l) * m;
+    // The other root -2 b / a lies within the scene, whose points are no further apart than 4 reach, or does not
+    // matter.
+    return a_error + 2 * (4 * scale_.reach * a_error + 2 * b_error) / scale_.resolution;
+  }
+
   static double square(double x) { return x * x; }
 
  private:

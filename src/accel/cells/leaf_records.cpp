@@ -219,12 +219,12 @@ class Recorder {
     return is_cylinder ? parallel_share(profile.greatest_radius, profile.high - profile.low, certainty) : 0;
   }
 
-  // Of the solids whose radius changes along the axis only the ellipsoid is known to be met again steeply enough.
+  // An ellipsoid is known to be met again steeply enough, a cylinder by those who go across it.
   static double start_of(const Profile& profile, const Certainty& certainty) {
-    const bool is_cylinder = profile.beta == 0 && profile.gamma == 0, is_ellipsoid = profile.gamma < 0;
-    if (is_ellipsoid) return 0;
-    return is_cylinder ? certainty.least_certain_start(profile.greatest_radius)
-                       : std::numeric_limits<double>::infinity();
+    if (profile.gamma < 0) return 0;
+    if (profile.gamma == 0 && profile.beta == 0) return certainty.least_certain_start(profile.greatest_radius);
+    const double linear = profile.gamma == 0 ? profile.beta : 0;
+    return certainty.least_certain_quadratic(profile.greatest_radius, std::sqrt(profile.gamma), linear);
   }
 
   static void put_profile(std::vector<double>& values, std::size_t at, const Profile& p, double graze, double parallel,
@@ -307,14 +307,19 @@ class Recorder {
 
 bool LeafRecords::start_is_certain(RecordRef ref, const Vec3& direction) const {
   const double* r = values(ref);
+  const auto is_certain = [&](const double* profile, double x, double y, double z) {
+    const double a = square(x) + square(y) - profile[ProfileRecord::gamma] * square(z);
+    return std::fabs(a) > profile[ProfileRecord::start] * dot(direction, direction);
+  };
   if (ref.kind() == RecordKind::upright) {
-    const double start = r[UprightRecord::profile + ProfileRecord::start];
-    return square(direction.x) + square(direction.y) > start * dot(direction, direction);
+    return is_certain(r + UprightRecord::profile, direction.x, direction.y, direction.z);
   }
   if (ref.kind() == RecordKind::frustum) {
-    const double* row = r + FrustumRecord::map;
-    const double x = dot(Vec3{row[0], row[1], row[2]}, direction), y = dot(Vec3{row[3], row[4], row[5]}, direction);
-    return square(x) + square(y) > r[FrustumRecord::profile + ProfileRecord::start] * dot(direction, direction);
+    const auto row = [&](std::size_t i) {
+      const double* const first = r + FrustumRecord::map + 3 * i;
+      return dot(Vec3{first[0], first[1], first[2]}, direction);
+    };
+    return is_certain(r + FrustumRecord::profile, row(0), row(1), row(2));
   }
   return true;
 }

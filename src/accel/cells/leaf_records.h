@@ -44,7 +44,7 @@ struct BoxRecord {
 /// x² + y² <= alpha + beta z + gamma z² for low <= z <= high, around its own middle. `graze` is the discriminant over
 /// |direction|² below which a ray grazes the side. One whose share across the axis, squared, is below `parallel` is
 /// inside or outside as a whole, unless x² + y² lies between `inside` and `outside`. A ray that starts on the side is
-/// certain of where it meets it again if that share exceeds `start`.
+/// certain of where it meets it again if x² + y² - gamma z² of its direction, over its square, exceeds `start`.
 struct ProfileRecord {
   static constexpr std::size_t low = 0, high = 1, alpha = 2, beta = 3, gamma = 4, graze = 5, parallel = 6, start = 7,
                                inside = 8, outside = 9, size = 10;
