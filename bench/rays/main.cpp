@@ -1,7 +1,10 @@
+#include <hwy/targets.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstdio>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -61,7 +64,12 @@ int main(int argc, char** argv) {
   app.add_option("--against", options.against, "`structures`: of the structures only these, on the six scenes")
       ->delimiter(',')
       ->check(CLI::IsMember(accelerator_names()));
+  const std::map<std::string, std::int64_t> wider_than{{"avx512", 0}, {"avx2", HWY_AVX2 - 1}, {"sse4", HWY_SSE4 - 1}};
+  std::int64_t disabled = 0;
+  app.add_option("--instructions", disabled, "The widest that Tenon may use: avx512, avx2 or sse4")
+      ->transform(CLI::CheckedTransformer(wider_than));
   CLI11_PARSE(app, argc, argv);
+  hwy::DisableTargets(disabled);
   if (options.scenes.empty()) options.scenes = scene_names();
   if (options.rays.empty()) options.rays = {"primary", "shadow", "diffuse"};
   for (const Part& part : parts) {

@@ -17,7 +17,7 @@ class Instance {
  public:
   SharedSolid solid;
 
-  static constexpr std::string_view name = "instance", scad_name = "";
+  static constexpr std::string_view name = "instance", scad_name = {};
   static constexpr std::string_view doc = "A solid that stands at many places and is stored once.";
   static constexpr bool bounded = true;
   static constexpr double relative_cost = 20;

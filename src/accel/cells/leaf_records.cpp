@@ -78,18 +78,19 @@ class Recorder {
       : tree_(tree), scale_(scale), center_(center), records_(records) {}
 
   RecordRef record(const Leaf& leaf) {
-    return visit(tree_.primitives.lists(), leaf.primitive, [&](const auto& primitive) { return add(leaf, primitive); });
+    return visit(tree_.primitives.lists(), leaf.primitive, [&](const auto& primitive) {
+      if constexpr (requires { add(leaf, primitive); }) {
+        return add(leaf, primitive);
+      } else {
+        return RecordRef(RecordKind::general, 0);
+      }
+    });
   }
 
  private:
   // A plane that is met at a slope below the least is left to the exact structure when it might be met in the scene.
   // Larger than this, too many rays would be.
   static constexpr double most_slope = 0x1p-9;
-
-  template <class P>
-  RecordRef add(const Leaf&, const P&) {
-    return {RecordKind::general, 0};
-  }
 
   RecordRef add(const Leaf& leaf, const Sphere& sphere) {
     const Certainty certainty(leaf, tree_, scale_);
