@@ -33,7 +33,6 @@ struct CellCost {
       case RecordKind::upright:
         return 1.8;
       case RecordKind::frustum:
-        return 2.5;
       case RecordKind::convex:
         return 2.5;
       case RecordKind::torus:

@@ -48,7 +48,8 @@ void ClassifySides(const LeafLanes& leaves, const Box3& box, std::span<const Spl
       whole[a] = See(leaves.axes[static_cast<std::size_t>(a)], lane, box.lower[a], box.upper[a]);
     }
     for (std::size_t i = 0; i < planes.size(); ++i) {
-      const auto [axis, position] = planes[i];
+      const int axis = planes[i].axis;
+      const double position = planes[i].position;
       const IntervalView &b = whole[(axis + 1) % 3], &c = whole[(axis + 2) % 3];
       const auto nearest = hn::Add(b.nearest, c.nearest), farthest = hn::Add(b.farthest, c.farthest);
       const auto apart = hn::Or(b.apart, c.apart), within = hn::And(b.within, c.within);

@@ -16,8 +16,9 @@ std::array<double, 3> array_of(const Vec3& v) {
 
 std::array<double, 9> rows_of(const Affine3& map) {
   std::array<double, 9> rows{};
+  std::size_t next = 0;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) rows[static_cast<std::size_t>(3 * i + j)] = map.row(i)[j];
+    for (int j = 0; j < 3; ++j) rows[next++] = map.row(i)[j];
   }
   return rows;
 }
@@ -37,15 +38,16 @@ class Placer {
       : tree_(tree), scale_(scale), shapes_(shapes) {}
 
   ShapeRef place(const Leaf& leaf) {
-    return visit(tree_.primitives.lists(), leaf.primitive, [&](const auto& primitive) { return add(leaf, primitive); });
+    return visit(tree_.primitives.lists(), leaf.primitive, [&](const auto& primitive) {
+      if constexpr (requires { add(leaf, primitive); }) {
+        return add(leaf, primitive);
+      } else {
+        return ShapeRef(ShapeKind::general, 0);
+      }
+    });
   }
 
  private:
-  template <class P>
-  ShapeRef add(const Leaf&, const P&) {
-    return {ShapeKind::general, 0};
-  }
-
   ShapeRef add(const Leaf& leaf, const Sphere& sphere) {
     const Certainty certainty(leaf, tree_, scale_);
     const double e = length(certainty.place());
