@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 #include "scene/camera_frame.h"
 #include "tenon/math/affine3.h"
@@ -143,7 +144,8 @@ Camera fit_camera(const Camera& camera, SolidExtent& extent, double aspect, doub
     distance = reach(back) + fitted.width;
   } else {
     const double tan_x = filled * std::tan(0.5 * camera.fov * (std::numbers::pi / 180)), tan_y = tan_x / aspect;
-    const Sides wide{reach, frame.right, back}, tall{reach, frame.up, back};
+    using Across = Sides<std::decay_t<decltype(reach)>>;
+    const Across wide{reach, frame.right, back}, tall{reach, frame.up, back};
     distance = std::max({wide.distance(tan_x), tall.distance(tan_y), reach(back) + least});
     x = wide.middle(tan_x, distance);
     y = tall.middle(tan_y, distance);
