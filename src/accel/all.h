@@ -37,7 +37,8 @@
     "one kd-tree, and an operation tree with marks (Zajíček 2012)") \
   X(multi_kd, "multi-kd", "split=msah;traversal-cost=0;mailbox=off", \
     "a kd-tree for each operand of intersection and difference (Zajíček 2012)") \
-  X(cells, "cells", "quality=fast;quality=high;depth=6;most-cells=40", "space cut until the expression in a cell is a word of truth values")
+  X(cells, "cells", "quality=fast;quality=high;depth=6;most-cells=40", \
+    "space cut until the expression in a cell is a word of truth values")
 // clang-format on
 
 namespace tenon {

@@ -73,8 +73,8 @@ class Certainty {
     const double a_error = (2 + s * s) * (2 * m + d) * d + gamma(12) * (1 + s * s) * m * m;
     const double b_error = 2 * (r + o) * d + 2 * m * o + (r + w_error) * s * d + s * m * w_error + 0.5 * l * d +
                            gamma(10) * (2 * r + s * r + l) * m;
-    // The other root -2 b / a lies within the scene, whose points are no further apart than 4 reach, or does not
-    // matter.
+    // On the side |x|, |y| and w are at most r, and |offset| + |slope z| at most 2 r. The other root -2 b / a lies
+    // within the scene, whose points are no further apart than 4 reach, or does not matter.
     return a_error + 2 * (4 * scale_.reach * a_error + 2 * b_error) / scale_.resolution;
   }
 

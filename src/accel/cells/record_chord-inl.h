@@ -103,7 +103,8 @@ HWY_INLINE Stretch<D> BoxStretch(D d, const SceneRays<D>& ray, const Record& r, 
 ///
 /// F(t) = a t² + 2 b t + c has the discriminant D, so a F = (a t + b)² - D. With |D| up to `graze` and (a t + b)² above
 /// four times that, a F is above three times it. So |F| is more than six times the bound on its error that Certainty's
-/// graze is made from, and its sign that of a, for a is at most |direction|² in the quadric's frame.
+/// graze is made from, and its sign that of a, for a is at most (1 + gamma) |direction|² in the quadric's frame, and
+/// graze as much larger.
 /// @return where that holds from t_in to t_out
 template <class D>
 HWY_NOINLINE hn::Mask<D> GrazesElsewhere(D d, hn::Vec<D> a, hn::Vec<D> b, hn::Vec<D> graze, hn::Vec<D> t_in,
