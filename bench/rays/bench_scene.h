@@ -21,8 +21,8 @@ inline constexpr int picture_width = 640, picture_height = 480;
 /// The six scenes that every contender traces.
 const std::vector<std::string>& scene_names();
 
-/// A scene of several media, for Tenon's structures alone.
-inline const std::string media_scene = "tumblers";
+/// Scenes for Tenon's structures alone: of several media, and of a part that is stored once.
+inline const std::vector<std::string> own_scenes = {"tumblers", "copies"};
 
 /// Reads a scene file. `definitions` as `tenon -D`.
 Result<BenchScene> read_scene(const std::string& path,

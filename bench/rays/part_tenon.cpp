@@ -104,15 +104,14 @@ RaySet eightfold(RaySet set) {
 }  // namespace
 
 Status run_structures(const PartOptions& options, Report& report) {
-  std::map<std::string, std::vector<double>> scenes, media, examples;
+  std::map<std::string, std::vector<double>> scenes, own, examples;
   for (const std::string& name : options.scenes) {
     report.heading(name);
     if (Status status = compare_structures(scene_path(name), options, report, scenes); !status) return status;
   }
-  // Glass, water and ice; no one else's contenders know media.
-  if (options.scenes == scene_names()) {
-    report.heading(media_scene);
-    if (Status status = compare_structures(scene_path(media_scene), options, report, media); !status) return status;
+  for (const std::string& name : options.scenes == scene_names() ? own_scenes : std::vector<std::string>{}) {
+    report.heading(name);
+    if (Status status = compare_structures(scene_path(name), options, report, own); !status) return status;
   }
   for (const std::string& path : options.against.empty() ? example_paths() : std::vector<std::string>{}) {
     report.heading(path);
@@ -120,7 +119,7 @@ Status run_structures(const PartOptions& options, Report& report) {
   }
   report.heading("how many times as fast as the best of the others on each scene");
   for (const auto& [rays, ratios] : scenes) report.summary(rays + " rays, the six scenes", ratios);
-  for (const auto& [rays, ratios] : media) report.summary(rays + " rays, " + media_scene, ratios);
+  for (const auto& [rays, ratios] : own) report.summary(rays + " rays, media and copies", ratios);
   for (const auto& [rays, ratios] : examples) report.summary(rays + " rays, OpenSCAD's examples", ratios);
   return success();
 }

@@ -80,8 +80,16 @@ std::shared_ptr<Prototype> Prototype::create(CsgTree tree) {
   return std::shared_ptr<Prototype>(new Prototype(std::move(tree), enclosure, std::move(*first_face)));
 }
 
+bool Prototype::knows_materials() const {
+  return std::any_of(tree_.leaves.begin(), tree_.leaves.end(), [&](const Leaf& leaf) {
+    const Prototype* within = prototype_of(tree_, leaf);
+    return leaf.material || leaf.color || (within != nullptr && within->knows_materials_);
+  });
+}
+
 Prototype::Prototype(CsgTree tree, const Box3& enclosure, std::vector<std::uint32_t> first_face)
     : tree_(std::move(tree)),
+      knows_materials_(knows_materials()),
       expression_(Expression::compile(tree_)),
       enclosure_(enclosure),
       first_face_(std::move(first_face)),
@@ -158,6 +166,7 @@ Vec3 Prototype::normal(const Vec3& point, std::uint32_t number) const {
 }
 
 MaterialId Prototype::face_material(const Vec3& point, std::uint32_t number) const {
+  if (!knows_materials_) return {};
   const Face face = face_of(number);
   const MaterialId own = tenon::face_material(tree_, {face.leaf, face.face}, point);
   if (own && !tree_[face.leaf].shows_what_it_cut) return own;
@@ -167,6 +176,7 @@ MaterialId Prototype::face_material(const Vec3& point, std::uint32_t number) con
 
 // A leaf whose surface the point lies on, or as good as, is taken to hold it where that makes more of space solid.
 MaterialId Prototype::material_at(const Vec3& point) const {
+  if (!knows_materials_) return {};
   ExpressionState state(expression_);
   state.reset();
   const Box3 box{point, point};

@@ -34,6 +34,15 @@ class Prototype final : public CompositeSolid {
   Vec3 normal(const Vec3& point, std::uint32_t face) const override;
   std::uint32_t face_count() const override { return 2 * first_face_.back(); }
 
+  /// A face of it, as one of a leaf.
+  struct Face {
+    LeafId leaf;
+    std::uint32_t face;
+    bool opposite;  ///< the solid lies on the other side than the leaf
+  };
+  Face face_of(std::uint32_t number) const;
+  std::uint32_t number_of(const Face& face) const;
+
   /// The material that a face shows at a point of it; none where no leaf says.
   MaterialId face_material(const Vec3& point, std::uint32_t face) const;
   /// The material of the leaf that owns a point; none where no leaf says. At a surface that of the solid beside it.
@@ -42,18 +51,13 @@ class Prototype final : public CompositeSolid {
  private:
   class Source;
   class Scratch;
-  struct Face {
-    LeafId leaf;
-    std::uint32_t face;
-    bool opposite;  // the solid lies on the other side than the leaf
-  };
 
   Prototype(CsgTree tree, const Box3& enclosure, std::vector<std::uint32_t> first_face);
+  bool knows_materials() const;
   Scratch& scratch() const;
-  Face face_of(std::uint32_t number) const;
-  std::uint32_t number_of(const Face& face) const;
 
   CsgTree tree_;
+  bool knows_materials_;  // some leaf has one of its own
   Expression expression_;
   Box3 enclosure_;
   std::vector<std::uint32_t> first_face_;  // of each leaf, and behind the last

@@ -228,25 +228,26 @@ Placement::MappedRay Placement::to_local(const Ray& ray, double tolerance, int o
 // origin_error + |s + t'| direction_error of it, and the map stretches that by |M| and M's own error.
 Placement::MappedRay Placement::to_local(const LocalRay& ray) const {
   MappedRay mapped = to_local(Ray{ray.origin, ray.direction}, 0, ray.on_face);
-  const auto stretched = [this](const Vec3& error) {
-    Vec3 local = times(relative_error_, error);
-    for (int i = 0; i < 3; ++i) local[i] += dot(abs(local_from_world_[static_cast<std::size_t>(i)]), error);
-    return local * (1 + gamma(6));
-  };
   const Vec3 direction_error = stretched(ray.direction_error);
   mapped.ray.direction_error += direction_error;
   mapped.ray.origin_error += stretched(ray.origin_error) + std::fabs(mapped.shift) * direction_error;
   return mapped;
 }
 
-Placement::RayErrors Placement::ray_errors(double farthest, double tolerance) const {
+Vec3 Placement::stretched(const Vec3& error) const {
+  Vec3 local = times(relative_error_, error);
+  for (int i = 0; i < 3; ++i) local[i] += dot(abs(local_from_world_[static_cast<std::size_t>(i)]), error);
+  return local * (1 + gamma(6));
+}
+
+Placement::RayErrors Placement::ray_errors(double farthest, double tolerance, const RayErrors& before) const {
   const Vec3 from{farthest, farthest, farthest};
   // |shift| |d| is at most the distance to the centre.
   const double moved = length(from + abs(world_center_)) * (1 + gamma(8));
   RayErrors errors;
-  errors.direction = times(relative_error_, {1, 1, 1});
+  errors.direction = times(relative_error_, {1, 1, 1}) + stretched(before.direction);
   errors.origin = constant_error_ + tolerance * row_length_ + times(relative_error_, from + abs(world_origin())) +
-                  moved * errors.direction;
+                  stretched(before.origin) + moved * errors.direction;
   return errors;
 }
 

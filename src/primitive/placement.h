@@ -79,12 +79,14 @@ class Placement {
   /// the primitive, its on_face says so.
   MappedRay to_local(const LocalRay& ray) const;
 
-  /// Bounds on the errors that to_local() gives a ray: of its origin, and of its direction for one of length 1.
-  /// @param farthest  the ray's origin has no larger coordinate
+  /// Bounds on the errors of a ray: of its origin, and of its direction for one of length 1.
   struct RayErrors {
     Vec3 origin, direction;
   };
-  RayErrors ray_errors(double farthest, double tolerance) const;
+  /// Those that to_local() gives a ray, by its length before.
+  /// @param farthest  the ray's origin has no larger coordinate
+  /// @param before    what it has already
+  RayErrors ray_errors(double farthest, double tolerance, const RayErrors& before = {}) const;
 
   /// The box in the local frame.
   LocalBox to_local(const Box3& box) const;
@@ -94,6 +96,8 @@ class Placement {
   using Bound3 = std::array<Vec3, 3>;
   static Vec3 times(const Bound3& rows, const Vec3& v) { return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; }
 
+  // Bound on the local image of an error.
+  Vec3 stretched(const Vec3& error) const;
   Vec3 to_local_direction(const Vec3& v) const {
     return {dot(local_from_world_[0], v), dot(local_from_world_[1], v), dot(local_from_world_[2], v)};
   }

@@ -239,7 +239,10 @@ TEST(CellsMedia, AreBuiltAlikeByEverybody) {
   Draw draw(62);
   const CsgTree tree = random_media(draw, gallery::random_scene(6, 300, 6), 5, 3);
   const Box3 box = battery::extent(tree);
-  const cells::CellTree one = cells::CellTree::build(tree, box, {}, 1), four = cells::CellTree::build(tree, box, {}, 4);
+  const auto build = [&](int threads) {
+    return cells::CellTree::build(tree, box, cells::CellScale::of(tree), {{}, {}, threads});
+  };
+  const cells::CellTree one = build(1), four = build(4);
   ASSERT_GT(one.cells.size(), 100u);
   ASSERT_EQ(one.cells.size(), four.cells.size());
   for (std::size_t i = 0; i < one.cells.size(); ++i) {

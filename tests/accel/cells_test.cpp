@@ -295,7 +295,7 @@ TEST(Cells, FollowDirectionsOfAnyLength) {
 TEST(Cells, AreBuiltAlikeByEverybody) {
   const CsgTree tree = gallery::random_scene(6, 300, 6);
   const Box3 box = battery::extent(tree);
-  const CellTree one = CellTree::build(tree, box, {}, 1);
+  const CellTree one = CellTree::build(tree, box, cells::CellScale::of(tree), {{}, {}, 1});
   ASSERT_GT(one.cells.size(), 100u);
   const auto expect_the_same = [&](const CellTree& other) {
     ASSERT_EQ(one.cells.size(), other.cells.size());
@@ -306,8 +306,10 @@ TEST(Cells, AreBuiltAlikeByEverybody) {
     }
     for (std::size_t i = 0; i < one.nodes.size(); ++i) ASSERT_EQ(one.nodes[i].ends, other.nodes[i].ends);
   };
-  expect_the_same(CellTree::build(tree, box, {}, 4));
-  for_each_instruction_set([&] { expect_the_same(CellTree::build(tree, box, {}, 1)); });
+  expect_the_same(CellTree::build(tree, box, cells::CellScale::of(tree), {{}, {}, 4}));
+  for_each_instruction_set([&] {
+    expect_the_same(CellTree::build(tree, box, cells::CellScale::of(tree), {{}, {}, 1}));
+  });
 }
 
 // What is left of an expression says the same as the whole wherever the constant leaves are as assumed: whether a point

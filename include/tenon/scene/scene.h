@@ -40,9 +40,9 @@ struct Scene {
   const Material& material(MaterialId id) const { return id ? materials[id.get()] : default_material; }
 };
 
-/// Up to this many primitives, a scene that repeats itself is traced as if it did not: that is faster, and takes some
-/// hundred bytes for each.
-inline constexpr double most_spelled_out = 1 << 17;
+/// Up to this many primitives, a scene that repeats itself is traced as if it did not: that is faster. But each takes
+/// up to some ten microseconds and a kilobyte to build, so that of more the first picture would be late.
+inline constexpr double most_spelled_out = 1 << 15;
 
 /// Compiles a model.
 /// @param view         how it is to be looked at

@@ -22,9 +22,8 @@ namespace HWY_NAMESPACE {
 /// Gives what was found its last bits.
 class BatchAnswers {
  public:
-  /// @param together  the scene's tolerance over twice the resolution
-  BatchAnswers(const CellTree& tree, double together, const RayBatch& batch, const BatchFindings& findings)
-      : cells_(tree), together_(together), rays_(batch), found_(findings) {}
+  BatchAnswers(const CellTree& tree, const RayBatch& batch, const BatchFindings& findings)
+      : cells_(tree), together_to_near_(tree.scale.together_to_near()), rays_(batch), found_(findings) {}
 
   /// @param begin  the place of the batch's first ray among those of the sink
   template <class Sink>
@@ -164,7 +163,8 @@ class BatchAnswers {
       const bool starts_here = std::ranges::any_of(leaves, [&](LeafId leaf) { return start_face(query, leaf) >= 0; });
       if (starts_here || !(t - 2 * near > near)) continue;
       CellAnswer answer;
-      const CellStretch stretch{t - 2 * near, t + 2 * near, 0.5 * near, together_ * near, Sink::wanted == Wanted::hit};
+      const CellStretch stretch{t - 2 * near, t + 2 * near, 0.5 * near, together_to_near_ * near,
+                                Sink::wanted == Wanted::hit};
       if (MeetChords(cells_, cell, chords, lane, stretch, runs, answer) != Outcome::met) continue;
       answer.kind = answer.t < query.t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
       answer.cell = found_.cell(i);
@@ -286,7 +286,7 @@ class BatchAnswers {
   }
 
   const CellTree& cells_;
-  const double together_;
+  const double together_to_near_;
   const RayBatch& rays_;
   const BatchFindings& found_;
 };

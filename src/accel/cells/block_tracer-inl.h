@@ -23,8 +23,12 @@ namespace HWY_NAMESPACE {
 class BlockTracer {
  public:
   /// @param streams  of the same batch
-  BlockTracer(const CellTree& cells, double tolerance, RayBatch& rays, BatchFindings& found, StreamTracer& streams)
-      : cells_(cells), tolerance_(tolerance), rays_(rays), found_(found), streams_(streams) {}
+  BlockTracer(const CellTree& cells, RayBatch& rays, BatchFindings& found, StreamTracer& streams)
+      : cells_(cells),
+        together_to_near_(cells.scale.together_to_near()),
+        rays_(rays),
+        found_(found),
+        streams_(streams) {}
 
   /// Whether the rays make a block: they are of one kind and go into one octant, and nowhere near along its planes, and
   /// not far apart.
@@ -280,7 +284,7 @@ class BlockTracer {
         walk.unsure = hn::Or(walk.unsure, DoubtStarts(cell, i, at, starts, ray.near, walk.enter[i], walk.leave[i]));
       }
     }
-    const auto together = hn::Mul(ray.near, hn::Set(d, tolerance_ / (2 * cells_.scale.resolution)));
+    const auto together = hn::Mul(ray.near, hn::Set(d, together_to_near_));
     const auto table = hn::Set(u, cell.table);
     if (HWY_LIKELY(cell.values != Cell::Values::several)) {
       walk.Follow(d, count, lanes, table, t_in, t_out, ray.near, together);
@@ -332,7 +336,7 @@ class BlockTracer {
   }
 
   const CellTree& cells_;
-  const double tolerance_;
+  const double together_to_near_;
   RayBatch& rays_;
   BatchFindings& found_;
   StreamTracer& streams_;

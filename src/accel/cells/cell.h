@@ -45,12 +45,14 @@ struct alignas(64) Cell {
   std::array<RecordRef, most_tabled> records;
   std::array<LeafId, most_tabled> leaves;
   std::uint8_t leaf_count = 0;
-  bool general = false;   ///< some leaf has no record
-  bool extended = false;  ///< more than six leaves: the expression stands in CellTree::symbols
+  bool general : 1 = false;       ///< some leaf has no record
+  bool has_instance : 1 = false;  ///< all of those are instances
+  bool extended = false;          ///< more than six leaves: the expression stands in CellTree::symbols
   Values values = Values::solid;
   /// Of Values::solid: who owns the solid's points here. Else an index into CellStore::media.
   std::uint32_t owner_or_media = CellOwner{}.leaf.get();
 };
+static_assert(sizeof(Cell) == 64);
 
 /// The expression of a cell with more than six leaves.
 struct ExtendedCell {

@@ -37,6 +37,8 @@ struct CellCost {
         return 2.5;
       case RecordKind::torus:
         return 8;
+      case RecordKind::instance:
+        return 20;
       case RecordKind::general:
         break;
     }

@@ -42,13 +42,13 @@ void CountRays(const RayBatch& rays, TraversalStatistics& statistics) {
 
 // A function of its own, for what it keeps on the stack would be in the way of single rays.
 template <class Sink>
-HWY_NOINLINE void TraceInBatches(const CellTree& cells, double tolerance, SingleTracer& single, std::vector<Run>& runs,
+HWY_NOINLINE void TraceInBatches(const CellTree& cells, SingleTracer& single, std::vector<Run>& runs,
                                  std::span<const RayQuery> queries, const Sink& sink, TraversalStatistics& statistics) {
   RayBatch rays;
   BatchFindings found;
-  StreamTracer stream(cells, tolerance, rays, found);
-  BlockTracer block(cells, tolerance, rays, found, stream);
-  const BatchAnswers finisher(cells, tolerance / (2 * cells.scale.resolution), rays, found);
+  StreamTracer stream(cells, rays, found);
+  BlockTracer block(cells, rays, found, stream);
+  const BatchAnswers finisher(cells, rays, found);
   constexpr bool any_will_do = Sink::wanted == Wanted::occlusion;
   for (std::size_t begin = 0; begin < queries.size(); begin += RayBatch::most_rays) {
     const std::size_t count = std::min(RayBatch::most_rays, queries.size() - begin);
@@ -72,10 +72,10 @@ HWY_INLINE void TraceInto(const CellTree& cells, const CsgTree& tree, std::span<
                           const Sink& sink, CellScratch& scratch, TraversalStatistics& statistics) {
   scratch.runs.clear();
   SingleTracer single(cells, tree, scratch, Sink::wanted);
-  if (queries.size() < least_batch) {
+  if (queries.size() < least_batch || cells.has_few_tables) {
     TraceOneByOne(single, queries, sink, statistics);
   } else {
-    TraceInBatches(cells, tree.tolerance.distance, single, scratch.runs, queries, sink, statistics);
+    TraceInBatches(cells, single, scratch.runs, queries, sink, statistics);
   }
 }
 

@@ -8,10 +8,10 @@
 
 namespace tenon::cells {
 
-CellTree CellTree::build(const CsgTree& tree, const Box3& box, const BuildQuality& quality, int threads,
-                         const BuildLimits& limits) {
+CellTree CellTree::build(const CsgTree& tree, const Box3& box, const CellScale& scale, const BuildSettings& settings) {
   CellTree result;
-  result.scale = CellScale::of(tree);
+  result.scale = scale;
+  result.ranks = OwnerRanks(tree);
   result.box = grown(box, 4 * result.scale.growth);
   result.center = result.box.center();
   for (int axis = 0; axis < 3; ++axis) {
@@ -22,14 +22,19 @@ CellTree CellTree::build(const CsgTree& tree, const Box3& box, const BuildQualit
   }
   result.records = LeafRecords::of(tree, result.scale, result.center);
   result.shapes = PlacedShapes::of(tree, result.scale);
-  result.ranks = OwnerRanks(tree);
   const LeafRegions regions(tree, &result.records);
-  BuiltCells built = build_cells({tree, result.scale, result.records, regions, result.ranks, quality, limits},
-                                 result.box, result.center, threads);
+  BuiltCells built =
+      build_cells({tree, result.scale, result.records, regions, result.ranks, settings.quality, settings.limits},
+                  result.box, result.center, settings.threads);
   static_cast<CellStore&>(result) = std::move(built.store);
   result.nodes = std::move(built.nodes);
   result.depth = built.depth;
-  for (const Cell& cell : result.cells) result.most_leaves = std::max(result.most_leaves, result.leaf_count(cell));
+  std::size_t left = 0;
+  for (const Cell& cell : result.cells) {
+    result.most_leaves = std::max(result.most_leaves, result.leaf_count(cell));
+    left += cell.general || cell.extended ? 1 : 0;
+  }
+  result.has_few_tables = 2 * left > result.cells.size();
   return result;
 }
 

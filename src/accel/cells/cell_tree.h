@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,8 +17,10 @@
 
 namespace tenon::cells {
 
-/// The boundary cells of a scene under a tree of eight-wide nodes. Cells do not overlap (but for the slack), so the
-/// first boundary in the first cell is the answer.
+struct PrototypeCells;
+
+/// The boundary cells of a scene, or of a part that is stored once, under a tree of eight-wide nodes. Cells do not
+/// overlap (but for the slack), so the first boundary in the first cell is the answer.
 struct CellTree : CellStore {
   Vec3 center;
   Box3 box;  ///< of the whole solid, absolute
@@ -30,8 +33,10 @@ struct CellTree : CellStore {
   LeafRecords records;
   PlacedShapes shapes;
   OwnerRanks ranks;
+  std::vector<std::shared_ptr<const PrototypeCells>> prototypes;  ///< by PrototypeId
   int depth = 0;
   std::uint32_t most_leaves = 0;  ///< in one cell
+  bool has_few_tables = false;    ///< most cells are left to SingleTracer, so rays are traced one by one from the start
 
   /// Has what stands below a child come to the cache, for a ray that will be there soon.
   void prefetch(ChildRef child) const {
@@ -48,12 +53,14 @@ struct CellTree : CellStore {
   using CellStore::medium_of;
 
   bool empty() const { return nodes.empty(); }
-  std::size_t memory_bytes() const;
+  std::size_t memory_bytes() const;  ///< without its prototypes
   /// Cells by the number of their leaves, and what else tells a good tree from a bad one.
   std::vector<std::pair<std::string, double>> details() const;
 
-  static CellTree build(const CsgTree& tree, const Box3& box, const BuildQuality& quality, int threads,
-                        const BuildLimits& limits = {});
+  /// All but its prototypes.
+  /// @param box    around the whole solid
+  /// @param scale  of the tree
+  static CellTree build(const CsgTree& tree, const Box3& box, const CellScale& scale, const BuildSettings& settings);
 };
 
 }  // namespace tenon::cells

@@ -4,6 +4,7 @@
 
 #include "accel/all.h"
 #include "accel/cells/cell_trace.h"
+#include "accel/cells/prototype_cells.h"
 #include "accel/stand_in.h"
 #include "csg/classifier.h"
 #include "csg/describe_hit.h"
@@ -101,6 +102,17 @@ class Cells final : public Accelerator {
   AcceleratorFigures figures() const override {
     AcceleratorFigures figures{cells_.memory_bytes(), cells_.nodes.size() + cells_.cells.size(), cells_.depth, {}};
     for (const auto& [what, value] : cells_.details()) figures.details.push_back({what, value});
+    const std::vector<const CellTree*> parts = trees_within(cells_);
+    std::size_t part_cells = 0;
+    for (const CellTree* part : parts) {
+      figures.memory_bytes += part->memory_bytes();
+      figures.boxes += part->nodes.size() + part->cells.size();
+      part_cells += part->cells.size();
+    }
+    if (!parts.empty()) {
+      figures.details.push_back({"parts that are stored once", static_cast<double>(parts.size())});
+      figures.details.push_back({"boundary cells in them", static_cast<double>(part_cells)});
+    }
     return figures;
   }
 
@@ -180,7 +192,6 @@ bool is_plain(const CsgTree& tree, const Box3& enclosure) {
 // Whether there is a great deal of what has a structure of its own. A cell can make no use of what is within one, and a
 // hierarchy over many takes a tenth of the memory and of the time to build (measured with 10⁵ meshes).
 bool is_crowd(const CsgTree& tree) {
-  if (!tree.prototypes.empty()) return true;
   constexpr std::ptrdiff_t many = 1 << 16;
   const PrimitiveKind* mesh = PrimitiveStore::find_kind("mesh");
   return std::count_if(tree.leaves.begin(), tree.leaves.end(),
@@ -190,23 +201,23 @@ bool is_crowd(const CsgTree& tree) {
 }  // namespace
 
 Result<std::unique_ptr<Accelerator>> build_cells(const BuildInput& input, AcceleratorOptions& options) {
-  cells::BuildQuality quality;
+  cells::BuildSettings settings;
   switch (options.take_word("quality", {"default", "fast", "high"})) {
     case 1:
-      quality = {0, 1.0 / 4, 0};
+      settings.quality = {0, 1.0 / 4, 0};
       break;
     case 2:
-      quality = {5, 1.0 / 32, 1};
+      settings.quality = {5, 1.0 / 32, 1};
       break;
     default:
       break;
   }
-  cells::BuildLimits limits;
+  cells::BuildLimits& limits = settings.limits;
   limits.depth = options.take_integer("depth", limits.depth, 1, limits.depth);
   constexpr int no_limit = 0;
   const int most_cells = options.take_integer("most-cells", no_limit, 1, std::numeric_limits<int>::max());
   if (most_cells != no_limit) limits.cells = static_cast<std::size_t>(most_cells);
-  const int threads = options.take_integer("threads", available_threads(), 1, 4096);
+  settings.threads = options.take_integer("threads", available_threads(), 1, 4096);
   if (Status status = options.finish(); !status) return status.error();
   const CsgTree& tree = input.tree;
   const Box3 enclosure = tree.root ? node_enclosures(tree)[tree.root.get()] : Box3::empty();
@@ -216,10 +227,14 @@ Result<std::unique_ptr<Accelerator>> build_cells(const BuildInput& input, Accele
   }
   if (is_crowd(tree)) {
     return stand_in(build_accelerator("goldsmith-bvh", tree, input.view),
-                    "goldsmith-bvh traces it: there are instances, or very many meshes, each of which is stored once");
+                    "goldsmith-bvh traces it: there are very many meshes, each of which is stored once");
   }
   CellTree cells;
-  if (!enclosure.is_empty()) cells = CellTree::build(tree, enclosure, quality, threads, limits);
+  if (!enclosure.is_empty()) {
+    const cells::CellScale scale = cells::CellScale::of(tree);
+    cells = CellTree::build(tree, enclosure, scale, settings);
+    cells.prototypes = cells::build_prototype_cells(tree, scale, settings);
+  }
   return std::unique_ptr<Accelerator>(std::make_unique<Cells>(tree, std::move(cells)));
 }
 

@@ -10,14 +10,14 @@
 
 namespace tenon::cells {
 
-/// When the bounds of a leaf's crossings are at most the resolution (CellScale): for rays that start within
+/// When the bounds of a leaf's crossings are at most CellScale::certain: for rays that start within
 /// CellScale::far_origin, and crossings within 4 reach of the point nearest to the leaf's centre (the whole scene lies
 /// nearer).
 class Certainty {
  public:
-  Certainty(const Leaf& leaf, const CsgTree& tree, const CellScale& scale) : scale_(scale) {
+  Certainty(const Leaf& leaf, const CellScale& scale) : scale_(scale) {
     const Placement& p = leaf.placement;
-    const Placement::RayErrors errors = p.ray_errors(scale.far_origin, tree.tolerance.distance);
+    const Placement::RayErrors errors = p.ray_errors(scale.far_origin, scale.added_tolerance, scale.ray_errors);
     origin_ = errors.origin;
     direction_ = errors.direction;
     for (int i = 0; i < 3; ++i) most_ += square(length(p.local_from_world_linear().row(i)));
@@ -35,24 +35,22 @@ class Certainty {
   double most_stretch() const { return most_; }
   double least_stretch() const { return least_; }
 
-  /// A discriminant D of q, known to within `error`, has roots within error / sqrt(D); half the resolution is left for
+  /// A discriminant D of q, known to within `error`, has roots within error / sqrt(D); half of that is left for
   /// the rounding of t. Where D is below minus this there are certainly none: D >= -|a| error has.
-  double graze(double error) const {
-    return std::max(square(2 * error / scale_.resolution), 2 * square(most_) * error);
-  }
+  double graze(double error) const { return std::max(square(2 * error / scale_.certain), 2 * square(most_) * error); }
 
   /// A plane that is met at slope s is crossed within error / |s|.
-  double least_slope(double error) const { return 2 * error / scale_.resolution; }
+  double least_slope(double error) const { return 2 * error / scale_.certain; }
 
-  /// Whether the second root of a ray that starts on a quadric of radius r (solve_deflated) is within half the
-  /// resolution, whatever its direction.
+  /// Whether the second root of a ray that starts on a quadric of radius r (solve_deflated) is within half of
+  /// it, whatever its direction.
   bool starts_are_certain(double r, double least_quadratic) const {
     const double d = length(direction_), o = length(place_), m = most_;
     const double a_error = 2 * m * d + d * d + gamma(12) * m * m;
     const double b_error = (r + o) * d + m * o + gamma(12) * r * m;
     const double bound =
         (a_error * 2 * (r + o) / std::sqrt(least_quadratic) + 2 * b_error) / (least_quadratic - a_error);
-    return least_quadratic > 2 * a_error && bound <= 0.5 * scale_.resolution;
+    return least_quadratic > 2 * a_error && bound <= 0.5 * scale_.certain;
   }
 
   /// The least share of a ray's direction that must lie across a quadric's axis, squared, in its frame, for that.
@@ -75,7 +73,7 @@ class Certainty {
                            gamma(10) * (2 * r + s * r + l) * m;
     // On the side |x|, |y| and w are at most r, and |offset| + |slope z| at most 2 r. The other root -2 b / a lies
     // within the scene, whose points are no further apart than 4 reach, or does not matter.
-    return a_error + 2 * (4 * scale_.reach * a_error + 2 * b_error) / scale_.resolution;
+    return a_error + 2 * (4 * scale_.reach * a_error + 2 * b_error) / scale_.certain;
   }
 
   static double square(double x) { return x * x; }

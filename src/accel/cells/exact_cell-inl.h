@@ -28,16 +28,19 @@ struct AskedRay {
   const RayQuery* query;
   double square, inverse_square, length;  ///< of its direction
   double near;                            ///< two resolutions (CellScale)
-  double together;                        ///< the scene's tolerance
+  double together;                        ///< CellScale::together
+  /// Where it begins: at t = 0, but in the frame of an instance, where it comes from before.
+  double begin = 0;
+  const LocalRay* local = nullptr;  ///< the same with its errors, in the frame of an instance
 
-  HWY_INLINE void Begin(const RayQuery& the_query, double direction_square, double resolution, double tolerance) {
+  HWY_INLINE void Begin(const RayQuery& the_query, double direction_square, const CellScale& scale) {
     query = &the_query;
     square = direction_square;
     inverse_square = 1 / square;
     length = hn::Sqrt(square);
     const double slowness = length * inverse_square;
-    near = 2 * resolution * slowness;
-    together = tolerance * slowness;
+    near = 2 * scale.resolution * slowness;
+    together = scale.together * slowness;
   }
   double resolution() const { return 0.5 * near; }
   HWY_INLINE RayLanes<One> lanes() const {
@@ -172,7 +175,19 @@ class ExactCell {
       : cells_(cells), tree_(tree), ray_(ray), scratch_(scratch) {}
 
   /// Begins a new ray.
-  void Begin() { ++scratch_.ray; }
+  void Begin() { number_ = ++scratch_.ray; }
+
+  /// The ray in the frame of a leaf, as spans() has it.
+  Placement::MappedRay Map(LeafId leaf, int on_face) const {
+    const Placement& placement = tree_[leaf].placement;
+    if (ray_.local == nullptr) return placement.to_local(ray_.query->ray, tree_.tolerance.distance, on_face);
+    LocalRay from = *ray_.local;
+    from.on_face = on_face;
+    return placement.to_local(from);
+  }
+
+  const AskedRay& ray() const { return ray_; }
+  CellScratch& scratch() const { return scratch_; }
 
   /// Gives a boundary that was found by plain arithmetic the t and the face of spans(). @return whether it has them
   HWY_INLINE bool Finish(CellAnswer& answer) {
@@ -231,7 +246,8 @@ class ExactCell {
       const ChordLanes<One> chord = Chord(shape, on_face);
       if (chord.unsure) return Outcome::unsure;
       chords.Put(One(), i, chord);
-      const bool is_clear = t_in > near || StartIsClear(chords.enter[i][0], chords.leave[i][0], on_face, near);
+      const bool is_clear =
+          t_in - ray_.begin > near || StartIsClear(chords.enter[i][0], chords.leave[i][0], on_face, ray_.begin, near);
       if (!is_clear) return Outcome::unsure;
     }
     return MeetChords(cells_, cell, chords, 0, {t_in, t_out, ray_.resolution(), ray_.together, wants_faces},
@@ -314,20 +330,26 @@ class ExactCell {
 
   const Spans& FindSpans(LeafId leaf, int on_face) {
     auto& known = scratch_.mailbox[leaf.get() % CellScratch::known];
-    if (known.ray == scratch_.ray && known.leaf == leaf) return known.spans;
+    if (known.ray == number_ && known.leaf == leaf) return known.spans;
     ++tests_;
-    known.ray = scratch_.ray;
+    known.ray = number_;
     known.leaf = leaf;
     known.spans.clear();
     const Leaf& placed = tree_[leaf];
-    spans(tree_.primitives, placed.primitive, placed.placement, ray_.query->ray, tree_.tolerance.distance, on_face,
-          known.spans);
+    if (ray_.local == nullptr) {
+      spans(tree_.primitives, placed.primitive, placed.placement, ray_.query->ray, tree_.tolerance.distance, on_face,
+            known.spans);
+    } else {
+      LocalRay from = *ray_.local;
+      from.on_face = on_face;
+      spans(tree_.primitives, placed.primitive, placed.placement, from, known.spans);
+    }
     return known.spans;
   }
 
   // The start: of a leaf nothing but the face that the ray starts on may lie there.
-  static bool StartIsClear(double enter, double leave, int on_face, double near) {
-    const bool enters_here = std::fabs(enter) <= near, leaves_here = std::fabs(leave) <= near;
+  static bool StartIsClear(double enter, double leave, int on_face, double begin, double near) {
+    const bool enters_here = std::fabs(enter - begin) <= near, leaves_here = std::fabs(leave - begin) <= near;
     if (on_face < 0) return !enters_here && !leaves_here;
     return enters_here != leaves_here && (enters_here ? enter : leave) == 0;
   }
@@ -336,6 +358,7 @@ class ExactCell {
   const CsgTree& tree_;
   const AskedRay& ray_;
   CellScratch& scratch_;
+  std::uint64_t number_ = 0;  // of the ray in the scratch memory
   std::uint64_t tests_ = 0;
 };
 

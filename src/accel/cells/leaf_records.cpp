@@ -78,6 +78,7 @@ class Recorder {
       : tree_(tree), scale_(scale), center_(center), records_(records) {}
 
   RecordRef record(const Leaf& leaf) {
+    if (leaf.prototype) return {RecordKind::instance, leaf.prototype.get()};
     return visit(tree_.primitives.lists(), leaf.primitive, [&](const auto& primitive) {
       if constexpr (requires { add(leaf, primitive); }) {
         return add(leaf, primitive);
@@ -93,7 +94,7 @@ class Recorder {
   static constexpr double most_slope = 0x1p-9;
 
   RecordRef add(const Leaf& leaf, const Sphere& sphere) {
-    const Certainty certainty(leaf, tree_, scale_);
+    const Certainty certainty(leaf, scale_);
     const double e = length(certainty.place());
     const double error = e * (2 * sphere.r + e) + gamma(12) * sphere.r * sphere.r;
     if (!(e < sphere.r / 16) || !certainty.starts_are_certain(sphere.r, square(certainty.least_stretch())))
@@ -121,7 +122,7 @@ class Recorder {
   }
 
   RecordRef add(const Leaf& leaf, const Box& box) {
-    const Certainty certainty(leaf, tree_, scale_);
+    const Certainty certainty(leaf, scale_);
     const Placement& p = leaf.placement;
     const Affine3& map = p.local_from_world_linear();
     Vec3 least;
@@ -152,7 +153,7 @@ class Recorder {
   }
 
   RecordRef add(const Leaf& leaf, const Cylinder& cylinder) {
-    const Certainty certainty(leaf, tree_, scale_);
+    const Certainty certainty(leaf, scale_);
     const double r = cylinder.r, e = std::hypot(certainty.place().x, certainty.place().y);
     if (!(e < r / 0x1p10)) return {RecordKind::general, 0};
     return add_revolved(leaf, certainty, profile_of(cylinder), certainty.graze(e * (2 * r + e) + gamma(12) * r * r));
@@ -170,7 +171,7 @@ class Recorder {
   // The bound of RevolvedQuadric::error_at over its window: there no square exceeds (2.2 R)² and so no sum of the terms
   // 16 R²; a place that is off by e moves them by (2 * 2.2 R + e) e across, and by twice the steepness along the axis.
   RecordRef add_revolved_quadric(const Leaf& leaf, const Profile& profile) {
-    const Certainty certainty(leaf, tree_, scale_);
+    const Certainty certainty(leaf, scale_);
     const double R = profile.greatest_radius, e = std::hypot(certainty.place().x, certainty.place().y);
     const double along = 2 * profile.steepness() * certainty.place().z + gamma(5) * 8 * R * R;
     const double error = (4.5 * R + e) * e + along + gamma(10) * 16 * R * R;
@@ -245,7 +246,7 @@ class Recorder {
   // As TorusQuartic has it: a place that is off by e moves f by e (2 r + e) (1 + (r + e) / R); and w, of size R before
   // it cancels, rounds sixteen times at most, f is at most 2 r times as much off.
   RecordRef add(const Leaf& leaf, const Torus& torus) {
-    const Certainty certainty(leaf, tree_, scale_);
+    const Certainty certainty(leaf, scale_);
     const double R = torus.R, r = torus.r, e = length(certainty.place());
     if (!(e < r / 0x1p10)) return {RecordKind::general, 0};
     const double error = e * (2 * r + e) * (1 + (r + e) / R) + gamma(64) * (R + r) * r;
@@ -263,7 +264,7 @@ class Recorder {
   }
 
   RecordRef add(const Leaf& leaf, const ConvexPolyhedron& solid) {
-    const Certainty certainty(leaf, tree_, scale_);
+    const Certainty certainty(leaf, scale_);
     const Placement& p = leaf.placement;
     std::vector<double> values{static_cast<double>(solid.planes.size()), 0};
     for (const Plane& plane : solid.planes) {

@@ -11,8 +11,15 @@
 namespace tenon::cells {
 
 /// The kinds of leaf that rays are followed through by plain arithmetic. A ray that meets a cell with a `general` leaf
-/// is resolved there by the classifier.
-enum class RecordKind : std::uint8_t { general, ball, aligned_box, box, upright, frustum, convex, torus };
+/// is resolved by the classifier
+/// there. So it does where an `instance` stands among other leaves; one that has a cell to itself is followed through
+/// the cells of its own.
+enum class RecordKind : std::uint8_t { general, ball, aligned_box, box, upright, frustum, convex, torus, instance };
+
+/// Whether a leaf of the kind has a record.
+inline bool is_followed(RecordKind kind) {
+  return kind != RecordKind::general && kind != RecordKind::instance;
+}
 
 /// Where a leaf's record stands, and of what kind it is.
 struct RecordRef {
@@ -22,7 +29,9 @@ struct RecordRef {
   RecordRef(RecordKind kind, std::size_t index)
       : bits(static_cast<std::uint32_t>(kind) << 28 | static_cast<std::uint32_t>(index)) {}
   RecordKind kind() const { return static_cast<RecordKind>(bits >> 28); }
-  std::uint32_t index() const { return bits & 0xfffffff; }  ///< into LeafRecords::lines
+  std::uint32_t index() const {
+    return bits & 0xfffffff;
+  }  ///< into LeafRecords::lines; of an instance: its PrototypeId
 };
 
 /// A ball: the centre, the square of its radius, and the square of half a chord below which a ray grazes it.

@@ -74,7 +74,7 @@ SquareRange square_distances(const Vec3& from, const Box3& box) {
 }  // namespace
 
 LeafRegions::LeafRegions(const CsgTree& tree, const LeafRecords* records)
-    : tree_(tree), margin_(2 * enclosure_margin(tree)), leaves_(tree.leaves.size()) {
+    : tree_(tree), records_(records), margin_(2 * enclosure_margin(tree)), leaves_(tree.leaves.size()) {
   for (std::size_t i = 0; i < tree.leaves.size(); ++i) {
     const Leaf& leaf = tree.leaves[i];
     RegionLeaf& region = leaves_[i];
@@ -133,6 +133,17 @@ void LeafRegions::add_shape(const Leaf& leaf, RegionLeaf& region) {
         box.half[i] = 0.5 * primitive.size[i] / length(row);
       }
       turned_boxes_.push_back(box);
+    } else if constexpr (std::is_same_v<P, Instance>) {
+      // Rays find where it is within the box, through cells of its own: to cut it into small ones here takes memory,
+      // and makes them no faster (by trial on copies that overlap).
+      if (records_ == nullptr) return;
+      region.extent *= 12;
+      const Box3 around = local_bounds(tree_.primitives, leaf.primitive);
+      region.kind = RegionLeaf::Kind::instance;
+      region.center = map.point(around.center());
+      region.shape = static_cast<std::uint32_t>(leaf.prototype.get());
+      half_instances_.resize(tree_.prototypes.size());
+      half_instances_[region.shape] = 0.5 * around.size();
     }
   });
 }
@@ -146,6 +157,8 @@ Region LeafRegions::classify(const RegionLeaf& leaf, const Box3& box) const {
       return classify_ring(leaf, box);
     case RegionLeaf::Kind::turned_box:
       return classify_turned_box(leaf, box);
+    case RegionLeaf::Kind::instance:
+      return classify_instance(leaf, box);
     case RegionLeaf::Kind::general:
       break;
   }
@@ -201,6 +214,17 @@ Region LeafRegions::classify_turned_box(const RegionLeaf& leaf, const Box3& box)
     within = within && distance + reach < turned.half[i] - margin_;
   }
   return within ? Region::inside : Region::straddles;
+}
+
+// By the box around the part, in its frame.
+Region LeafRegions::classify_instance(const RegionLeaf& leaf, const Box3& box) const {
+  const Affine3 map = tree_[leaf.leaf].placement.local_from_world_linear();
+  const Vec3 half = 0.5 * box.size() + Vec3{margin_, margin_, margin_}, from_center = box.center() - leaf.center;
+  for (int i = 0; i < 3; ++i) {
+    const double distance = std::fabs(dot(map.row(i), from_center)), reach = dot(abs(map.row(i)), half);
+    if (distance - reach > half_instances_[leaf.shape][i]) return Region::outside;
+  }
+  return Region::straddles;
 }
 
 Box3 LeafRegions::surface_within(const RegionLeaf& leaf, const Box3& box) const {

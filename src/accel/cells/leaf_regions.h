@@ -15,7 +15,8 @@ struct RegionLeaf {
     general,
     plain,  ///< a ball, an upright box or an upright cylinder: RegionLeaf says it all
     ring,
-    turned_box
+    turned_box,
+    instance
   };
 
   Box3 bounds;
@@ -27,7 +28,7 @@ struct RegionLeaf {
   Kind kind = Kind::general;
   std::uint8_t round_axes = 0;  ///< bit a: distances along axis a count. Along the others a plain leaf is its bounds
   LeafId leaf;
-  std::uint32_t shape = 0;  ///< of rings and turned boxes: which
+  std::uint32_t shape = 0;  ///< of rings and turned boxes: which; of an instance: its PrototypeId
 
   bool is_round_along(int axis) const { return (round_axes >> axis & 1) != 0; }
 };
@@ -68,12 +69,15 @@ class LeafRegions {
   Region classify_plain(const RegionLeaf& leaf, const Box3& box) const;
   Region classify_ring(const RegionLeaf& leaf, const Box3& box) const;
   Region classify_turned_box(const RegionLeaf& leaf, const Box3& box) const;
+  Region classify_instance(const RegionLeaf& leaf, const Box3& box) const;
 
   const CsgTree& tree_;
+  const LeafRecords* records_;
   double margin_;
   std::vector<RegionLeaf> leaves_;
   std::vector<Ring> rings_;
   std::vector<TurnedBox> turned_boxes_;
+  std::vector<Vec3> half_instances_;  // of the box around each prototype
 };
 
 }  // namespace tenon::cells

@@ -49,7 +49,7 @@ class Placer {
 
  private:
   ShapeRef add(const Leaf& leaf, const Sphere& sphere) {
-    const Certainty certainty(leaf, tree_, scale_);
+    const Certainty certainty(leaf, scale_);
     const double e = length(certainty.place());
     const double error = e * (2 * sphere.r + e) + gamma(12) * sphere.r * sphere.r;
     if (!(e < sphere.r / 16) || !certainty.starts_are_certain(sphere.r, square(certainty.least_stretch())))
@@ -67,7 +67,7 @@ class Placer {
   }
 
   ShapeRef add(const Leaf& leaf, const Box& box) {
-    const Certainty certainty(leaf, tree_, scale_);
+    const Certainty certainty(leaf, scale_);
     const Placement& p = leaf.placement;
     const Affine3& map = p.local_from_world_linear();
     std::array<double, 3> slopes{};
@@ -87,7 +87,7 @@ class Placer {
   }
 
   ShapeRef add(const Leaf& leaf, const Cylinder& cylinder) {
-    const Certainty certainty(leaf, tree_, scale_);
+    const Certainty certainty(leaf, scale_);
     const double e = length(Vec3{certainty.place().x, certainty.place().y, 0});
     const double r = cylinder.r, h = cylinder.h;
     const double error = e * (2 * r + e) + gamma(12) * r * r;
@@ -110,7 +110,7 @@ class Placer {
   // near the surface), they lie r / (2^10 |d|) apart or more. A step is at least half of r relative_step / |d|, and
   // |d| at most the stretch of the map.
   ShapeRef add(const Leaf& leaf, const Torus& torus) {
-    const Certainty certainty(leaf, tree_, scale_);
+    const Certainty certainty(leaf, scale_);
     const double least_step = torus.r * SettledTorusRoot::relative_step / (2 * certainty.most_stretch());
     const double least_gap = torus.r * 0x1p-10 / certainty.most_stretch();
     if (!(4 * scale_.resolution <= std::min(least_step / 8, least_gap / 4))) return {ShapeKind::general, 0};

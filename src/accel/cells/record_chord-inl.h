@@ -266,6 +266,7 @@ HWY_INLINE Stretch<D> FindStretch(D d, const SceneRays<D>& ray, RecordKind kind,
     case RecordKind::torus:
       return TorusStretch(d, ray, r, t_in, t_out, lanes);
     case RecordKind::general:
+    case RecordKind::instance:
       break;
   }
   Stretch<D> none = WholeStretch(d);

@@ -12,6 +12,7 @@
 #include <bit>
 
 #include "accel/cells/exact_cell-inl.h"
+#include "accel/cells/instance_cell-inl.h"
 #include "accel/cells/node_stack-inl.h"
 #include "accel/cells/record_chord-inl.h"
 
@@ -32,15 +33,33 @@ HWY_NOINLINE inline std::uint64_t TableFrom(const CellTree& cells, const Cell& c
 class SingleTracer {
  public:
   SingleTracer(const CellTree& cells, const CsgTree& tree, CellScratch& scratch, Wanted wanted)
-      : cells_(cells), exact_(cells, tree, asked_, scratch), wanted_(wanted), tolerance_(tree.tolerance.distance) {}
+      : cells_(cells), exact_(cells, tree, asked_, scratch), wanted_(wanted) {}
 
   /// @param answer  as it is made
   HWY_INLINE void Trace(const RayQuery& query, CellAnswer& answer, TraversalCounters& counters) {
     const double square = dot(query.ray.direction, query.ray.direction);
     if (BoxRay ray; !IsSound(query.ray, square)) {
       answer.kind = CellAnswer::Kind::unsure;
-    } else if (Begin(query, square, ray)) {
+    } else if (Begin(query, square, 0, query.t_max, ray)) {
       Walk(ray, answer, counters);
+    }
+  }
+
+  /// Follows a ray through a part of the frame of an instance. What is not certain of the part by itself is left to who
+  /// asks.
+  /// @param query        the ray in that frame; its t_max is infinite
+  /// @param local        the same, with its errors
+  /// @param begin        where it begins; what lies before from, or behind until, does not count
+  void TraceWithin(const RayQuery& query, const LocalRay& local, double begin, double from, double until,
+                   CellAnswer& answer, TraversalCounters& counters) {
+    asked_.local = &local;
+    asked_.begin = begin;
+    const double square = dot(query.ray.direction, query.ray.direction);
+    if (BoxRay ray; !IsSound(query.ray, square)) {
+      answer.kind = CellAnswer::Kind::unsure;
+    } else if (Begin(query, square, from, until, ray)) {
+      Walk(ray, answer, counters);
+      if (answer.kind == CellAnswer::Kind::boundary && answer.t > until) answer.kind = CellAnswer::Kind::nothing;
     }
   }
 
@@ -49,7 +68,7 @@ class SingleTracer {
     const double square = dot(query.ray.direction, query.ray.direction);
     if (!IsSound(query.ray, square)) return false;
     BoxRay ray;
-    return !Begin(query, square, ray) || WalkOn(ray, tell, counters);
+    return !Begin(query, square, 0, query.t_max, ray) || WalkOn(ray, tell, counters);
   }
 
   /// What a boundary amounts to that plain arithmetic found: its t, its leaf and whether the ray enters that are known.
@@ -71,7 +90,7 @@ class SingleTracer {
   /// The same where several faces are known to coincide, about where and in which cell. Begins the ray.
   void FinishGroup(const RayQuery& query, CellAnswer& answer) {
     Outcome outcome = Outcome::unsure;
-    if (BoxRay ray; Begin(query, dot(query.ray.direction, query.ray.direction), ray)) {
+    if (BoxRay ray; Begin(query, dot(query.ray.direction, query.ray.direction), 0, query.t_max, ray)) {
       const double t = answer.t - start_;
       outcome = Meet(cells_.cells[answer.cell], std::max(t - 2 * asked_.near, 0.0), t + 2 * asked_.near, answer);
     }
@@ -79,6 +98,7 @@ class SingleTracer {
   }
 
  private:
+  friend class InstanceCell<SingleTracer>;
   using Axes = hn::CappedTag<double, 4>;
   static constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -93,8 +113,8 @@ class SingleTracer {
     return is_near && square >= cells_.scale.least_square && square <= CellScale::most_square;
   }
 
-  // Where the line is in the scene's box, all axes at once where a vector has room for them.
-  HWY_INLINE bool Begin(const RayQuery& query, double square, BoxRay& box_ray) {
+  // Where a part of the line is in the scene's box, all axes at once where a vector has room for them.
+  HWY_INLINE bool Begin(const RayQuery& query, double square, double from_t, double until, BoxRay& box_ray) {
     const Axes axes;
     const hn::Rebind<float, Axes> floats;
     BeginScale(query, square);
@@ -107,7 +127,7 @@ class SingleTracer {
     HWY_ALIGN float box_inverse[4];
     HWY_ALIGN float box_shift[4];
     std::uint32_t flat = 0, backward = 0;
-    auto first = hn::Zero(axes), last = hn::Set(axes, query.t_max);
+    auto first = hn::Set(axes, from_t), last = hn::Set(axes, until);
     for (std::size_t a = 0; a < 4; a += hn::MaxLanes(axes)) {
       // What stands in the fourth place is no axis.
       const auto is_axis = hn::FirstN(axes, 3 - a);
@@ -152,20 +172,20 @@ class SingleTracer {
   }
 
   HWY_INLINE void BeginScale(const RayQuery& query, double square) {
-    asked_.Begin(query, square, cells_.scale.resolution, tolerance_);
+    asked_.Begin(query, square, cells_.scale);
     exact_.Begin();
   }
 
   HWY_INLINE void Walk(const BoxRay& ray, CellAnswer& answer, TraversalCounters& counters) {
     NodeStack stack;
-    std::uint64_t visited = 0;
-    tests_ = 0;
+    visited_ = tests_ = 0;
+    within_instances_ = {};
     NodeStack::Visit visit{ChildRef::node(0), 0, 0};
     for (;;) {
       if (!visit.child.is_cell()) {
         if (stack.OpenNearest(cells_.nodes[visit.child.index()], ray, visit)) continue;
       } else {
-        ++visited;
+        ++visited_;
         const Cell& cell = cells_.cells[visit.child.index()];
         answer.cell = visit.child.index();
         const Outcome outcome = cell.leaf_count == 1 ? MeetLeaf(cell, visit.t_in, visit.t_out, answer)
@@ -176,15 +196,16 @@ class SingleTracer {
       if (stack.empty()) break;
       visit = stack.Pop();
     }
-    counters.cells_visited += visited;
-    counters.primitive_tests += tests_ + exact_.TakeTests();
+    counters.cells_visited += visited_ + within_instances_.cells_visited;
+    counters.primitive_tests += tests_ + within_instances_.primitive_tests + exact_.TakeTests();
   }
 
   // Walk() for all boundaries.
   bool WalkOn(const BoxRay& ray, TellBoundary tell, TraversalCounters& counters) {
     NodeStack stack;
     stack.Open(cells_.nodes.front(), ray);
-    tests_ = 0;
+    visited_ = tests_ = 0;
+    within_instances_ = {};
     passed_ = -std::numeric_limits<double>::infinity();
     resolved_ = false;
     Outcome outcome = Outcome::passed;
@@ -194,14 +215,15 @@ class SingleTracer {
         stack.Open(cells_.nodes[child.index()], ray);
         continue;
       }
-      ++counters.cells_visited;
+      ++visited_;
       CellAnswer answer;
       while ((outcome = MeetNext(child.index(), t_in, t_out, answer)) == Outcome::met) {
         if (answer.kind == CellAnswer::Kind::nothing || !tell(answer)) break;
         passed_ = answer.t;
       }
     }
-    counters.primitive_tests += tests_ + exact_.TakeTests();
+    counters.cells_visited += visited_ + within_instances_.cells_visited;
+    counters.primitive_tests += tests_ + within_instances_.primitive_tests + exact_.TakeTests();
     return outcome != Outcome::unsure;
   }
 
@@ -232,7 +254,7 @@ class SingleTracer {
     answer.kind = CellAnswer::Kind::boundary;
     if (wanted_ == Wanted::occlusion && answer.t + 2 * asked_.near < asked_.query->t_max) return;
     if (!exact_.FinishGroup(cell, group, start_, after, wanted_ == Wanted::hit, answer)) {
-      const double before = std::max(answer.t - 2 * asked_.near, 0.0), behind = answer.t + 2 * asked_.near;
+      const double before = std::max(answer.t - 2 * asked_.near, asked_.begin), behind = answer.t + 2 * asked_.near;
       if (Ask(cell, before, behind, answer) != Outcome::met) {
         answer.kind = CellAnswer::Kind::unsure;
         return;
@@ -245,7 +267,7 @@ class SingleTracer {
   HWY_NOINLINE Outcome Ask(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
     Outcome outcome = Outcome::unsure;
     if (!cell.extended) outcome = exact_.Meet(cell, t_in, t_out, wanted_ == Wanted::hit, answer);
-    if (outcome == Outcome::unsure) {
+    if (outcome == Outcome::unsure && asked_.local == nullptr) {
       outcome = exact_.Resolve(cell, t_in, t_out, answer);
       resolved_ = outcome == Outcome::met;
     }
@@ -260,6 +282,39 @@ class SingleTracer {
     return outcome;
   }
 
+  // Meet() for what plain arithmetic cannot do by itself.
+  HWY_NOINLINE Outcome MeetOtherwise(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
+    Outcome outcome = Outcome::unsure;
+    if (cell.has_instance && !cell.extended) {
+      outcome = cell.leaf_count == 1 ? MeetInstance(cell, t_in, t_out, answer)
+                                     : InstanceCell<SingleTracer>(*this, cell, t_in, t_out).Meet(answer);
+    }
+    return outcome == Outcome::unsure ? MeetExactly(cell, t_in, t_out, answer) : outcome;
+  }
+
+  InstanceRay<SingleTracer> instance_ray(const Cell& cell, std::uint32_t place) const {
+    return {exact_, *cells_.prototypes[cell.records[place].index()], cell.leaves[place]};
+  }
+
+  // Meet() for a cell that an instance has to itself. All that a boundary of the part may be one with are others of its
+  // own: no other leaf is near.
+  Outcome MeetInstance(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
+    const double until = t_out + start_;
+    const bool any_will_do = wanted_ == Wanted::occlusion && until + 2 * asked_.near < asked_.query->t_max;
+    const Outcome outcome = instance_ray(cell, 0).Next(
+        t_in + start_, until, any_will_do ? Wanted::occlusion : Wanted::boundary, answer, within_instances_);
+    if (outcome != Outcome::met || any_will_do) return outcome;
+    TellBoundary(cell, answer.before, answer.after, answer);
+    return Outcome::met;
+  }
+
+  // The boundary whose crossing, with its last bits, `answer` is already.
+  void TellBoundary(const Cell& cell, std::uint32_t before, std::uint32_t after, CellAnswer& answer) const {
+    answer.before = static_cast<std::uint8_t>(cell.table >> before & 1);
+    answer.after = static_cast<std::uint8_t>(cell.table >> after & 1);
+    answer.kind = answer.t < asked_.query->t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
+  }
+
   // Where the ray meets a leaf of a cell, by its place; nowhere, if it misses it. @return whether that is certain
   HWY_INLINE bool FindLeaf(const Cell& cell, std::uint32_t place, double t_in, double t_out, double& enter,
                            double& leave) const {
@@ -268,7 +323,7 @@ class SingleTracer {
     if (HWY_UNLIKELY(s.unsure)) return false;
     enter = s.hit ? s.enter : never;
     leave = s.hit ? s.leave : never;
-    const bool starts = t_in + start_ <= asked_.near;
+    const bool starts = t_in + start_ - asked_.begin <= asked_.near;
     return HWY_LIKELY(!starts) || ClearStart(*asked_.query, cell, place, asked_.near, cells_.records, enter, leave);
   }
 
@@ -277,7 +332,7 @@ class SingleTracer {
   HWY_INLINE Outcome MeetLeaf(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
     ++tests_;
     double enter, leave;
-    if (!FindLeaf(cell, 0, t_in, t_out, enter, leave)) return MeetExactly(cell, t_in, t_out, answer);
+    if (!FindLeaf(cell, 0, t_in, t_out, enter, leave)) return MeetOtherwise(cell, t_in, t_out, answer);
     const bool inside = enter <= t_in;
     const double t = inside ? leave : enter;
     if (!(t > t_in && t <= t_out)) return Outcome::passed;
@@ -292,7 +347,7 @@ class SingleTracer {
 
   // Here t is counted from where the ray meets the scene.
   HWY_NOINLINE Outcome Meet(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
-    if (cell.extended || cell.general) return MeetExactly(cell, t_in, t_out, answer);
+    if (cell.extended || cell.general) return MeetOtherwise(cell, t_in, t_out, answer);
     double enter[Cell::most_tabled], leave[Cell::most_tabled], next[Cell::most_tabled];
     std::uint32_t state = 0, first = 0;
     double t = never;  // of the next crossing, the first of those at that double being `first`
@@ -380,12 +435,12 @@ class SingleTracer {
   AskedRay asked_;
   ExactCell exact_;
   const Wanted wanted_;
-  const double tolerance_;
   double start_;
   double passed_;  // the boundary that was passed last
   bool resolved_;  // the classifier found it
   SceneRays<One> ray_;
-  std::uint64_t tests_;
+  std::uint64_t visited_, tests_;
+  TraversalCounters within_instances_;
 };
 
 }  // namespace HWY_NAMESPACE

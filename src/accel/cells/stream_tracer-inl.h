@@ -24,8 +24,8 @@ namespace HWY_NAMESPACE {
 /// the truth tables are followed, one ray a lane.
 class StreamTracer {
  public:
-  StreamTracer(const CellTree& cells, double tolerance, RayBatch& rays, BatchFindings& found)
-      : cells_(cells), together_(tolerance / (2 * cells.scale.resolution)), rays_(rays), found_(found) {}
+  StreamTracer(const CellTree& cells, RayBatch& rays, BatchFindings& found)
+      : cells_(cells), together_to_near_(cells.scale.together_to_near()), rays_(rays), found_(found) {}
 
   /// Traces rays of the batch.
   /// @param left     them, a bit each
@@ -209,6 +209,7 @@ class StreamTracer {
       case RecordKind::convex:
         return MeetOneByOne();
       case RecordKind::general:
+      case RecordKind::instance:
         break;
     }
   }
@@ -290,7 +291,7 @@ class StreamTracer {
       walk.enter[i] = hn::Load(d, &enter_[i][at]);
       walk.leave[i] = hn::Load(d, &leave_[i][at]);
     }
-    const auto together = hn::Mul(near, hn::Set(d, together_));
+    const auto together = hn::Mul(near, hn::Set(d, together_to_near_));
     const auto table = hn::Load(u, &table_[at]);
     if (HWY_UNLIKELY(has_more_bits_)) {
       const hn::Vec<U> tables[] = {table, hn::Load(u, &more_bits_[0][at]), hn::Load(u, &more_bits_[1][at])};
@@ -341,7 +342,7 @@ class StreamTracer {
   }
 
   const CellTree& cells_;
-  const double together_;
+  const double together_to_near_;
   RayBatch& rays_;
   BatchFindings& found_;
   std::uint64_t left_ = 0;

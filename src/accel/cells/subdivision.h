@@ -29,6 +29,13 @@ struct BuildLimits {
   std::optional<std::size_t> cells;  ///< about so many; none: in proportion to the scene
 };
 
+/// How a tree of cells is built.
+struct BuildSettings {
+  BuildQuality quality;
+  BuildLimits limits;
+  int threads = 1;
+};
+
 /// What is subdivided, and what everybody who takes part in it knows.
 struct SubdivisionInput {
   const CsgTree& tree;

@@ -75,6 +75,7 @@ TabledSubdivider::Part TabledSubdivider::make_part(const Box3& box, const Folded
 
 ChildRef TabledSubdivider::add_cell(const Part& part) {
   Cell cell;
+  bool has_unknown = false;
   std::array<std::uint32_t, SplitSearch::most> variables{};
   for_each_bit(part.rest.leaves, [&](std::size_t i) {
     const LeafId leaf = expression_.leaves[i];
@@ -82,9 +83,12 @@ ChildRef TabledSubdivider::add_cell(const Part& part) {
     variables[cell.leaf_count] = 1U << i;
     cell.leaves[cell.leaf_count] = leaf;
     cell.records[cell.leaf_count] = record;
-    cell.general |= record.kind() == RecordKind::general;
+    cell.general |= !is_followed(record.kind());
+    cell.has_instance |= record.kind() == RecordKind::instance;
+    has_unknown |= record.kind() == RecordKind::general;
     ++cell.leaf_count;
   });
+  cell.has_instance &= !has_unknown;
   // The values there are, numbered anew: two of them take one bit. That of the outside comes first.
   const ValueTable& whole = part.rest.value;
   std::array<std::uint32_t, std::size_t{1} << SplitSearch::most> values{};
