@@ -12,6 +12,10 @@ import sys
 MESH = "mesh 1920"
 
 
+class NotMeasured(Exception):
+    """What a page needs and the results of its part lack: the options of the bench leave things out."""
+
+
 def load(folder, part):
     path = folder / f"{part}.json"
     return json.loads(path.read_text()) if path.exists() else []
@@ -24,6 +28,12 @@ def rates(rows):
         if "mrays_per_second" in row:
             table.setdefault((row["scene"], row["rays"]), {})[row["contender"]] = row["mrays_per_second"]
     return table
+
+
+def rate_of(contender, contenders):
+    if contender not in contenders:
+        raise NotMeasured(f"no rates of '{contender}' beside those of '{next(iter(contenders))}'")
+    return contenders[contender]
 
 
 def figures(rows, name):
@@ -70,8 +80,11 @@ def structures_page(rows):
     measured = rates(rows)
 
     def best_of_others(contenders):
-        names = list(contenders)
-        return names[0], max((rate, name) for name, rate in contenders.items() if not name.startswith(names[0]))
+        own = next(iter(contenders))
+        others = [(rate, name) for name, rate in contenders.items() if not name.startswith(own)]
+        if not others:
+            raise NotMeasured(f"no other structure to compare '{own}' with")
+        return own, max(others)
 
     def ratio(contenders):
         own, (best, _) = best_of_others(contenders)
@@ -101,12 +114,14 @@ def embree_page(rows):
     own = "tenon cells"
 
     def against(contender, ours):
-        return by_scene(measured, lambda contenders: contenders[ours] / contenders[f"{contender} {MESH}"])
+        theirs = f"{contender} {MESH}"
+        return by_scene(measured, lambda contenders: rate_of(ours, contenders) / rate_of(theirs, contenders))
 
     triangles = figures(rows, f"{MESH}: triangles")
     lines = [
-        [scene, rays, f"{triangles[scene]:,.0f}", *(number(value[f"{own}{how}"]) for how in ("", ", ray by ray")),
-         *(number(value[f"embree {width} {MESH}"]) for width in (1, 8, 16))]
+        [scene, rays, f"{triangles[scene]:,.0f}",
+         *(number(rate_of(f"{own}{how}", value)) for how in ("", ", ray by ray")),
+         *(number(rate_of(f"embree {width} {MESH}", value)) for width in (1, 8, 16))]
         for (scene, rays), value in measured.items()
     ]  # fmt: skip
     return [
@@ -138,7 +153,7 @@ def povray_page(rows):
         "",
         "Whole pictures, shading included, on one core; both draw the same.",
         "",
-        *by_scene(measured, lambda contenders: contenders["tenon cells"] / contenders["povray"]),
+        *by_scene(measured, lambda contenders: rate_of("tenon cells", contenders) / rate_of("povray", contenders)),
     ]
 
 
@@ -157,13 +172,17 @@ def growth_page(rows):
     kinds = kinds_of(measured)
     scenes = list(dict.fromkeys(scene for scene, _ in measured))
     lines = [
-        [scene, *(number(measured[scene, kind]["cells"]) for kind in kinds),
+        [scene, *(number(rate_of("cells", measured[scene, kind])) for kind in kinds),
          number(figures(rows, "building cells")[scene]), number(figures(rows, "memory of it")[scene])]
         for scene in scenes
     ]  # fmt: skip
-    begin, *later = [scene for scene in scenes if int(scene.split()[0]) >= 1000]
+    large = [scene for scene in scenes if int(scene.split()[0]) >= 1000]
+    if not large:
+        raise NotMeasured("no scene of 1000 spheres or more")
+    begin, *later = large
     fall = [
-        [f"{scene}, {whose}", *(number(measured[begin, kind][name] / measured[scene, kind][name]) for kind in kinds)]
+        [f"{scene}, {whose}",
+         *(number(rate_of(name, measured[begin, kind]) / rate_of(name, measured[scene, kind])) for kind in kinds)]
         for scene in later for whose, name in (("Tenon", "cells"), ("Embree", "embree 16 bare balls"))
     ]  # fmt: skip
     return [
@@ -231,7 +250,13 @@ def main(folder, page):
     ]
     for part, write in PARTS.items():
         if rows := load(folder, part):
-            lines += write(rows)
+            try:
+                lines += write(rows)
+            except NotMeasured as lack:
+                sys.exit(
+                    f"page.py: {folder / part}.json holds {lack}, so {page} stays as it was; "
+                    f"measure all of that part with: ./dev bench {part}"
+                )
     page.write_text("\n".join(lines).rstrip() + "\n")
 
 

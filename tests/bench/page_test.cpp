@@ -23,18 +23,34 @@ class BenchPage : public ::testing::Test {
   void write(const std::string& part, const std::string& rows) { std::ofstream(folder_ / (part + ".json")) << rows; }
 
   std::string page() {
-    const std::string script = std::string(TENON_ROOT) + "/bench/page.py", out = (folder_ / "page.md").string();
-    const std::string command =
-        "cd " TENON_ROOT " && /usr/bin/python3 '" + script + "' '" + folder_.string() + "' '" + out + "'";
-    EXPECT_EQ(std::system(command.c_str()), 0);
-    std::ostringstream text;
-    text << std::ifstream(out).rdbuf();
-    return text.str();
+    EXPECT_TRUE(runs()) << read("error.txt");
+    return read("page.md");
+  }
+
+  // What the script says where it makes no page.
+  std::string error() {
+    EXPECT_FALSE(runs());
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "page.md"));
+    return read("error.txt");
   }
 
   const std::filesystem::path folder_ =
       std::filesystem::path(::testing::TempDir()) /
       (std::string("tenon_bench_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+
+ private:
+  bool runs() const {
+    const std::string folder = folder_.string();
+    const std::string command = "cd " TENON_ROOT " && /usr/bin/python3 bench/page.py '" + folder + "' '" + folder +
+                                "/page.md' 2>'" + folder + "/error.txt'";
+    return std::system(command.c_str()) == 0;
+  }
+
+  std::string read(const std::string& name) const {
+    std::ostringstream text;
+    text << std::ifstream(folder_ / name).rdbuf();
+    return text.str();
+  }
 };
 
 bool has(const std::string& text, const std::string& part) {
@@ -83,6 +99,33 @@ TEST_F(BenchPage, SetsAllCoresAgainstOne) {
   const std::string text = page();
   EXPECT_TRUE(has(text, "| primary, 2 cores | shadow, 2 cores |")) << text;
   EXPECT_TRUE(has(text, "| a | 1.9 | 1.95 |")) << text;
+}
+
+// What the options of the bench leave out (--against cells, --accel, --largest) is named, with the way to get it.
+TEST_F(BenchPage, SaysWhichPartLacksWhatAPageNeeds) {
+  const std::string path = (folder_ / "structures.json").string();
+  write("structures", R"([
+    {"scene": "a", "rays": "primary", "contender": "cells", "mrays_per_second": 8},
+    {"scene": "a", "rays": "primary", "contender": "cells, ray by ray", "mrays_per_second": 7}])");
+  std::string text = error();
+  EXPECT_TRUE(has(text, path + " holds no other structure to compare 'cells' with")) << text;
+  EXPECT_TRUE(has(text, "./dev bench structures")) << text;
+  EXPECT_FALSE(has(text, "Traceback")) << text;
+
+  write("structures", "[]");
+  write("povray", R"([
+    {"scene": "a", "rays": "picture", "contender": "tenon kd-tree", "mrays_per_second": 8},
+    {"scene": "a", "rays": "picture", "contender": "povray", "mrays_per_second": 7}])");
+  text = error();
+  EXPECT_TRUE(has(text, "povray.json holds no rates of 'tenon cells' beside those of 'tenon kd-tree'")) << text;
+
+  write("povray", "[]");
+  write("growth", R"([
+    {"scene": "100 spheres", "figure": "building cells", "value": 1, "unit": "s"},
+    {"scene": "100 spheres", "figure": "memory of it", "value": 1, "unit": "MiB"},
+    {"scene": "100 spheres", "rays": "primary", "contender": "cells", "mrays_per_second": 8}])");
+  text = error();
+  EXPECT_TRUE(has(text, "growth.json holds no scene of 1000 spheres or more")) << text;
 }
 
 }  // namespace
