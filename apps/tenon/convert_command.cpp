@@ -22,11 +22,11 @@ struct ConvertCommand {
   Status run() const;
 };
 
-Result<std::string> write_csg(Model model, Console&) {
+Result<std::string> write_csg(Model&& model, Console&) {
   return print_csg(model);
 }
 
-Result<std::string> write_pov(Model model, Console& console) {
+Result<std::string> write_pov(Model&& model, Console& console) {
   constexpr double spell_out_all = std::numeric_limits<double>::infinity();
   const Result<Scene> scene = compile_scene(std::move(model), console.diagnostics(), {}, spell_out_all);
   if (!scene) return scene.error();
@@ -36,7 +36,7 @@ Result<std::string> write_pov(Model model, Console& console) {
 // The whole scene as text.
 struct Format {
   std::string_view suffix;
-  Result<std::string> (*write)(Model model, Console& console);
+  Result<std::string> (*write)(Model&& model, Console& console);
 };
 
 constexpr std::array<Format, 2> formats{{{".csg", write_csg}, {".pov", write_pov}}};

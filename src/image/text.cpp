@@ -31,8 +31,8 @@ std::vector<TextBar> draw_text(const std::string& text, int x, int y, int scale)
   const int bars = stb_easy_font_print(0, 0, writable(text), nullptr, vertices.data(),
                                        static_cast<int>(vertices.size() * sizeof(FontVertex)));
   std::vector<TextBar> result;
-  for (int i = 0; i < bars; ++i) {
-    const FontVertex &a = vertices[static_cast<std::size_t>(4 * i)], &b = vertices[static_cast<std::size_t>(4 * i + 2)];
+  for (std::size_t i = 0; i < static_cast<std::size_t>(bars); ++i) {
+    const FontVertex &a = vertices[4 * i], &b = vertices[4 * i + 2];
     const auto place = [scale](float v) { return scale * static_cast<int>(std::lround(v)); };
     result.push_back({x + place(a.x), y + place(a.y), x + place(b.x), y + place(b.y)});
   }

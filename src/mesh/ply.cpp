@@ -164,7 +164,7 @@ class Body {
 
 class PlyReader {
  public:
-  PlyReader(const Header& header, Body body) : header_(header), body_(std::move(body)) {}
+  PlyReader(const Header& header, Body body) : header_(header), body_(body) {}
 
   Result<PolygonSoup> read() {
     for (const Element& element : header_.elements) {

@@ -30,12 +30,14 @@ AmbientLight::AmbientLight(const Environment& around) {
   }
   // Drawn in proportion to the light, so that a small sun counts; a grid of draws, for the integrands are smooth.
   constexpr int side = 64;
-  for (int i = 0; i < side * side; ++i) {
-    const auto sample = around.sample({(i % side + 0.5) / side, (i / side + 0.5) / side});
-    if (!sample) continue;
-    const Rgb light = (1 / (4 * std::numbers::pi * sample->density * side * side)) * sample->radiance;
-    const std::array<double, count> p = polynomials(sample->direction);
-    for (std::size_t k = 0; k < count; ++k) harmonics_[k] += (squares[k] * of_cosine[k] * p[k]) * light;
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      const auto sample = around.sample({(column + 0.5) / side, (row + 0.5) / side});
+      if (!sample) continue;
+      const Rgb light = (1 / (4 * std::numbers::pi * sample->density * side * side)) * sample->radiance;
+      const std::array<double, count> p = polynomials(sample->direction);
+      for (std::size_t k = 0; k < count; ++k) harmonics_[k] += (squares[k] * of_cosine[k] * p[k]) * light;
+    }
   }
 }
 

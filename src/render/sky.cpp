@@ -66,7 +66,7 @@ LightMap sky_map(const Light& light) {
   LightMap map;
   map.width = 256;
   map.height = 128;
-  std::vector<Rgb> pixels(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
+  std::vector<Rgb> pixels;
   Rgb irradiance;
   for (int row = 0; row < map.height / 2; ++row) {
     const double colatitude = pi * (row + 0.5) / map.height;
@@ -80,13 +80,13 @@ LightMap sky_map(const Light& light) {
         return perez(turbidity, d.z, sun_angle) / perez(turbidity, 1, sun);
       };
       const Rgb there = rgb_of(relative(luminance), x0 * relative(chromaticity_x), y0 * relative(chromaticity_y));
-      pixels[static_cast<std::size_t>(row * map.width + column)] = there;
+      pixels.push_back(there);
       irradiance += (solid_angle * d.z) * there;
     }
   }
   constexpr double ground_albedo = 0.3;
   const Rgb ground = (ground_albedo / pi) * irradiance;
-  std::fill(pixels.begin() + map.height / 2 * map.width, pixels.end(), ground);
+  pixels.resize(2 * pixels.size(), ground);
   const double shown = (0.2126 * irradiance.r + 0.7152 * irradiance.g + 0.0722 * irradiance.b) / pi;
   const Rgb factor = (light.intensity / shown) * linear_from_srgb(light.color);
   for (const Rgb& p : pixels) {

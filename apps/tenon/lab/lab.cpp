@@ -30,7 +30,7 @@ Result<LabScene> Lab::read(const std::string& path, int width, int height, const
   if (!scene) return scene.error();
   Result<CameraRays> camera = CameraRays::create(scene->camera, side(width), side(height));
   if (!camera) return camera.error();
-  return LabScene{std::move(*scene), std::move(*camera)};
+  return LabScene{std::move(*scene), *camera};
 }
 
 std::string Lab::pixels(int width, int height) const {

@@ -247,7 +247,7 @@ Status run_rr612_levels(Lab& lab, const Paper& paper, LabTable& table) {
     LabSeries one{name + ", one grid", {}, {}, false}, two{name + ", sub-grids", {}, {}, false};
     LabSeries one_time = one, two_time = two;
     for (int levels = first_level; levels <= last_level; ++levels) {
-      const auto at = static_cast<std::size_t>(2 * (levels - first_level));
+      const auto at = 2 * static_cast<std::size_t>(levels - first_level);
       const RaceResult &whole = (*results)[at], &split = (*results)[at + 1];
       const double share = split.memory_bytes() / whole.memory_bytes();
       table.rows.push_back(
