@@ -11,7 +11,9 @@ if(TENON_WERROR)
   target_compile_options(tenon_flags INTERFACE -Werror)
 endif()
 if(TENON_SANITIZE)
-  target_compile_options(tenon_flags INTERFACE -fsanitize=${TENON_SANITIZE} -fno-omit-frame-pointer)
+  # By default undefined behaviour is only printed, and a test in which it occurs passes.
+  target_compile_options(tenon_flags INTERFACE -fsanitize=${TENON_SANITIZE} -fno-sanitize-recover=all
+                                               -fno-omit-frame-pointer)
   target_link_options(tenon_flags INTERFACE -fsanitize=${TENON_SANITIZE})
   # Two instruction sets, AVX2 and plain C++, take a minute to compile with the checks in them; five take many.
   target_compile_definitions(tenon_flags
