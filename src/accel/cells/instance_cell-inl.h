@@ -123,8 +123,7 @@ class InstanceCell {
   // further apart than `near`.
   bool FindNext(Progress& leaf) {
     const double from = std::max(leaf.last + 0.5 * near(), tracer_.asked_.begin);
-    const Outcome outcome =
-        leaf.instance->Next(from, never, Wanted::boundary, leaf.crossing, tracer_.within_instances_);
+    const Outcome outcome = leaf.instance->Next(from, never, Wanted::boundary, leaf.crossing, *tracer_.counters_);
     if (outcome == Outcome::unsure) return false;
     leaf.next = outcome == Outcome::met ? leaf.crossing.t : never;
     leaf.inside = outcome == Outcome::met && leaf.crossing.before != 0;

@@ -179,7 +179,7 @@ class SingleTracer {
   HWY_INLINE void Walk(const BoxRay& ray, CellAnswer& answer, TraversalCounters& counters) {
     NodeStack stack;
     visited_ = tests_ = 0;
-    within_instances_ = {};
+    counters_ = &counters;
     NodeStack::Visit visit{ChildRef::node(0), 0, 0};
     for (;;) {
       if (!visit.child.is_cell()) {
@@ -196,8 +196,8 @@ class SingleTracer {
       if (stack.empty()) break;
       visit = stack.Pop();
     }
-    counters.cells_visited += visited_ + within_instances_.cells_visited;
-    counters.primitive_tests += tests_ + within_instances_.primitive_tests + exact_.TakeTests();
+    counters.cells_visited += visited_;
+    counters.primitive_tests += tests_ + exact_.TakeTests();
   }
 
   // Walk() for all boundaries.
@@ -205,7 +205,7 @@ class SingleTracer {
     NodeStack stack;
     stack.Open(cells_.nodes.front(), ray);
     visited_ = tests_ = 0;
-    within_instances_ = {};
+    counters_ = &counters;
     passed_ = -std::numeric_limits<double>::infinity();
     resolved_ = false;
     Outcome outcome = Outcome::passed;
@@ -222,8 +222,8 @@ class SingleTracer {
         passed_ = answer.t;
       }
     }
-    counters.cells_visited += visited_ + within_instances_.cells_visited;
-    counters.primitive_tests += tests_ + within_instances_.primitive_tests + exact_.TakeTests();
+    counters.cells_visited += visited_;
+    counters.primitive_tests += tests_ + exact_.TakeTests();
     return outcome != Outcome::unsure;
   }
 
@@ -302,7 +302,7 @@ class SingleTracer {
     const double until = t_out + start_;
     const bool any_will_do = wanted_ == Wanted::occlusion && until + 2 * asked_.near < asked_.query->t_max;
     const Outcome outcome = instance_ray(cell, 0).Next(
-        t_in + start_, until, any_will_do ? Wanted::occlusion : Wanted::boundary, answer, within_instances_);
+        t_in + start_, until, any_will_do ? Wanted::occlusion : Wanted::boundary, answer, *counters_);
     if (outcome != Outcome::met || any_will_do) return outcome;
     TellBoundary(cell, answer.before, answer.after, answer);
     return Outcome::met;
@@ -440,7 +440,7 @@ class SingleTracer {
   bool resolved_;  // the classifier found it
   SceneRays<One> ray_;
   std::uint64_t visited_, tests_;
-  TraversalCounters within_instances_;
+  TraversalCounters* counters_;  // of the ray that is followed
 };
 
 }  // namespace HWY_NAMESPACE
