@@ -112,6 +112,13 @@ inline bool clip_slab(const LocalRay& ray, int axis, double low, double high, st
                          ray.on_face == static_cast<int>(low_face), chord);
 }
 
+/// A crossing at the end of a chord. One at infinity has no error; the last factor covers the roundings of the bound
+/// itself.
+inline Crossing crossing_at(const End& end, bool entering) {
+  const double bound = std::isfinite(end.t) ? std::max({end.hi - end.t, end.t - end.lo, 0.0}) * (1 + gamma(4)) : 0.0;
+  return {end.t, bound, end.face, entering, false};
+}
+
 /// Reports the two ends of a chord.
 ///
 /// A chord whose ends lie in the wrong order is none; but where their intervals meet the exact line may have one, and
@@ -130,15 +137,11 @@ inline void emit_chord(const Chord& chord, Spans& out) {
   // the ray skims would otherwise take in whatever stands behind the solid.
   enter.hi = std::min(enter.hi, leave.hi);
   leave.lo = std::max(leave.lo, enter.lo);
-  // An end at infinity has no error. The last factor covers the roundings of the bound itself.
-  const auto bound = [](const End& end) {
-    return std::isfinite(end.t) ? std::max({end.hi - end.t, end.t - end.lo, 0.0}) * (1 + gamma(4)) : 0.0;
-  };
-  const double enter_bound = bound(enter), leave_bound = bound(leave);
+  const Crossing first = crossing_at(enter, true), second = crossing_at(leave, false);
   // A ray so far off that its squares overflow.
-  if (std::isnan(enter_bound) || std::isnan(leave_bound)) return;
-  out.push_back({enter.t, enter_bound, enter.face, true, false});
-  out.push_back({leave.t, leave_bound, leave.face, false, false});
+  if (std::isnan(first.bound) || std::isnan(second.bound)) return;
+  out.push_back(first);
+  out.push_back(second);
 }
 
 /// Where errors have brought the crossings of one solid out of order, from the one with index `begin` on, the later

@@ -38,6 +38,12 @@ void find_spans(const PrimitiveStore& store, PrimitiveId id, const LocalRay& ray
   });
 }
 
+// To the ray that was mapped.
+void move(Crossing& c, double shift) {
+  c.t += shift;
+  c.bound = (c.bound + unit_roundoff * std::fabs(c.t)) * (1 + gamma(3));
+}
+
 // The same from t = begin of the ray that was mapped.
 void find_spans(const PrimitiveStore& store, PrimitiveId id, const Placement::MappedRay& mapped, double begin,
                 Spans& out) {
@@ -45,10 +51,7 @@ void find_spans(const PrimitiveStore& store, PrimitiveId id, const Placement::Ma
   find_spans(store, id, mapped.ray, begin - mapped.shift, out);
   if (mapped.shift == 0) return;
   for (std::size_t i = first; i < out.size(); ++i) {
-    Crossing& c = out[i];
-    if (!std::isfinite(c.t)) continue;
-    c.t += mapped.shift;
-    c.bound = (c.bound + unit_roundoff * std::fabs(c.t)) * (1 + gamma(3));
+    if (std::isfinite(out[i].t)) move(out[i], mapped.shift);
   }
 }
 
@@ -65,6 +68,28 @@ void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placeme
 
 void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const LocalRay& ray, Spans& out) {
   find_spans(store, id, placement.to_local(ray), -Box3::inf, out);
+}
+
+bool has_crossing_near(const PrimitiveStore& store, PrimitiveId id) {
+  return visit(store.lists(), id, [](const auto& primitive) {
+    return requires(const LocalRay& ray) {
+      primitive.crossing_near(ray, 0.0, 0.0, true);
+    };
+  });
+}
+
+std::optional<Crossing> crossing_near(const PrimitiveStore& store, PrimitiveId id, const Placement::MappedRay& mapped,
+                                      double t, double near, bool entering) {
+  if (!is_finite(mapped.ray) || mapped.ray.direction == Vec3{}) return std::nullopt;
+  return visit(store.lists(), id, [&](const auto& primitive) -> std::optional<Crossing> {
+    if constexpr (requires { primitive.crossing_near(mapped.ray, t, near, entering); }) {
+      std::optional<Crossing> found = primitive.crossing_near(mapped.ray, t - mapped.shift, near, entering);
+      if (found && mapped.shift != 0) move(*found, mapped.shift);
+      return found;
+    } else {
+      return std::nullopt;
+    }
+  });
 }
 
 double support(const PrimitiveStore& store, PrimitiveId id, const Vec3& n) {

@@ -22,6 +22,16 @@ void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placeme
 /// The same for a ray of the frame that the placement is in, which may be the local frame of something larger.
 void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const LocalRay& ray, Spans& out);
 
+/// Whether crossing_near() may say something.
+bool has_crossing_near(const PrimitiveStore& store, PrimitiveId id);
+
+/// The crossing that spans() has within `near` of t, entering or leaving, of which it is known that it is there: what
+/// spans() says of it, sooner. Nothing where it takes the whole of spans() to tell.
+/// @param mapped   the ray in the primitive's frame
+/// @param t, near  of the ray that was mapped
+std::optional<Crossing> crossing_near(const PrimitiveStore& store, PrimitiveId id, const Placement::MappedRay& mapped,
+                                      double t, double near, bool entering);
+
 /// The largest n·p over the primitive's points p, in the local frame; +inf where it is unbounded.
 double support(const PrimitiveStore& store, PrimitiveId id, const Vec3& n);
 

@@ -6,6 +6,7 @@
 #include "math/quadratic.h"
 #include "primitive/box_tests.h"
 #include "primitive/check.h"
+#include "primitive/wedge.h"
 
 namespace tenon {
 
@@ -313,6 +314,42 @@ void Prism::spans(const LocalRay& ray, Spans& out) const {
   emit_between_caps(slab, boundary, inside, walls, out);
 }
 
+std::optional<Crossing> Prism::crossing_near(const LocalRay& ray, double t, double near, bool entering) const {
+  Chord slab;
+  if (!clip_slab(ray, 2, low(), high(), bottom, top, slab)) return std::nullopt;
+  Line line(*this, ray);
+  if (!line.find_part(edges_, slab) || line.blur() >= 0) return std::nullopt;
+  // Whatever may be one with a crossing there, if that is known to within `near`.
+  const double first = t - 2 * near, last = t + 2 * near;
+  thread_local std::vector<EdgeCrossing> crossings;
+  crossings.clear();
+  double begin = 0, end = 0;
+  edges_.visit_edges(
+      [&](const Vec2& lower, const Vec2& upper) {
+        return line.clip_to_box(lower, upper, begin, end) && begin <= last && end >= first;
+      },
+      [&](std::uint32_t i) {
+        line.cross_edge(i, edges_.edges()[i], crossings);
+        return true;
+      });
+  std::erase_if(crossings, [&](const EdgeCrossing& c) { return c.hi < first || c.lo > last; });
+  if (crossings.empty()) return cap_near(slab, t, near, entering);
+  const EdgeCrossing& wall = crossings.front();
+  const bool is_known = crossings.size() == 1 && wall.sure && !wall.given && wall.lo >= first && wall.hi <= last;
+  const bool is_clear = entering ? slab.enter.hi < wall.lo : slab.leave.lo > wall.hi;
+  if (!is_known || !is_clear || std::fabs(wall.t - t) > near) return std::nullopt;
+  return crossing_at({wall, walls + face_of_edge(wall.edge, wall.rising, entering)}, entering);
+}
+
+// Where no wall is.
+std::optional<Crossing> Prism::cap_near(const Chord& slab, double t, double near, bool entering) const {
+  const End& cap = entering ? slab.enter : slab.leave;
+  if (cap.given || !(std::fabs(cap.t - t) <= near && cap.lo >= t - 2 * near && cap.hi <= t + 2 * near)) {
+    return std::nullopt;
+  }
+  return crossing_at(cap, entering);
+}
+
 namespace {
 
 // The part of the plane that a box covers, divided by the scales between its ends.
@@ -389,6 +426,37 @@ Region Prism::classify(const LocalBox& box) const {
   if (!edges_.contains({place.x / s, place.y / s})) return Region::outside;
   const bool between_caps = box.bounds.lower.z >= low() && box.bounds.upper.z <= high();
   return between_caps ? Region::inside : Region::straddles;
+}
+
+bool Prism::planes_within(const LocalBox& box, std::vector<Plane>& planes) const {
+  planes.clear();
+  if (scale != 1) return false;
+  const double bottom_z = low(), top_z = high();
+  if (box.bounds.lower.z <= bottom_z && bottom_z <= box.bounds.upper.z) planes.push_back({{0, 0, -1}, -bottom_z});
+  if (box.bounds.lower.z <= top_z && top_z <= box.bounds.upper.z) planes.push_back({{0, 0, 1}, top_z});
+
+  std::array<std::uint32_t, 4> walls_there{};
+  std::size_t count = 0;
+  const auto overlaps = [&](const Vec2& a, const Vec2& b) {
+    return a.x <= box.bounds.upper.x && box.bounds.lower.x <= b.x && a.y <= box.bounds.upper.y &&
+           box.bounds.lower.y <= b.y;
+  };
+  const bool are_few = edges_.visit_edges(overlaps, [&](std::uint32_t i) {
+    const OutlineEdge& edge = edges_.edges()[i];
+    if (!may_touch(box, edge)) return true;
+    if (edge.is_arc() || count == walls_there.size()) return false;
+    walls_there[count++] = i;
+    return true;
+  });
+  if (!are_few) return false;
+  if (count == 0) return !planes.empty() && edges_.contains({box.center.x, box.center.y});
+  const auto wedge = find_wedge(edges_, std::span(walls_there).first(count), box);
+  if (!wedge) return false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const HalfPlane& side = (*wedge)[i];
+    planes.push_back({{side.normal.x, side.normal.y, 0}, side.d});
+  }
+  return true;
 }
 
 // A point of a box, between the caps if the box is anywhere.

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <vector>
 
 #include "primitive/concept.h"
 #include "primitive/edge_crossings.h"
@@ -44,12 +46,15 @@ class Prism {
     return std::max(across + n.z * low(), scale * across + n.z * high());
   }
   void spans(const LocalRay& ray, Spans& out) const;
+  std::optional<Crossing> crossing_near(const LocalRay& ray, double t, double near, bool entering) const;
   Region classify(const LocalBox& box) const;
   std::uint32_t face_count() const { return walls + 2 * static_cast<std::uint32_t>(edges_.edges().size()); }
   Vec3 normal(const Vec3& point, std::uint32_t face) const;
+  bool planes_within(const LocalBox& box, std::vector<Plane>& planes) const;
 
  private:
   class Line;
+  std::optional<Crossing> cap_near(const Chord& slab, double t, double near, bool entering) const;
 
   double slope() const { return (scale - 1) / h; }
   double scale_at(double z) const { return 1 + (z - low()) * slope(); }

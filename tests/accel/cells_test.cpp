@@ -61,6 +61,41 @@ TEST(Cells, TellOwnersApartByTheirMaterials) {
   EXPECT_GT(owners_in_doubt(1), 0);
 }
 
+// Prisms come to a few planes in most cells; where they do not, and where corners and flush faces meet, nothing
+// differs.
+TEST(Cells, FollowPrismsByWhatTheyComeTo) {
+  Draw draw(39);
+  for (int round = 0; round < 6; ++round) {
+    SCOPED_TRACE(round);
+    SceneBuilder b;
+    const auto star = [&](double size) {
+      Outline outline{{{}, {}}};
+      for (int i = 0; i < 14; ++i) {
+        const double r = size * (i % 2 == 0 ? 1 : draw.real(0.4, 0.9)), angle = 360.0 * i / 14;
+        outline.loops[0].push_back(
+            {r * cos_degrees(angle), r * sin_degrees(angle), round == 4 && i % 3 == 0 ? 0.2 : 0});
+      }
+      for (int i = 0; i < 4; ++i) outline.loops[1].push_back({0.2 * (i == 1 || i == 2), 0.3 * (i > 1), 0});
+      return b.primitive("prism", {outline, 1.0, round % 2 == 0, round == 5 ? 0.7 : 1.0});
+    };
+    const SceneNodeId plate =
+        b.primitive("prism", {Outline{{{{-2, -1, 0}, {2, -1, 0}, {2, 1, 0}, {-2, 1, 0}}}}, 1.0, false, 1.0});
+    const SceneNodeId bodies = b.unite({star(1.5), b.translate({0, 0, 0.5}, b.rotate({0, 0, 20}, star(1.2))),
+                                        b.translate({2, 0, 0}, plate), b.rotate({70, 30, 0}, star(1))});
+    const SceneNodeId tools =
+        b.unite({b.translate({0.2, 0.1, -1}, b.cylinder(4, 0.3)), b.translate({2, -1, 0.5}, plate),
+                 b.translate({1, 0.5, 0.7}, b.sphere(0.5)), b.rotate({0, 90, 0}, b.scale(0.5, star(1)))});
+    const CsgTree tree = b.tree(b.subtract({bodies, tools}));
+    for (const char* spec : {"cells", "cells:quality=fast"}) expect_same_answers(tree, spec, 400);
+    expect_streams_say_what_single_rays_say(tree, 4000);
+    const auto cells = build_accelerator("cells", tree);
+    const double all = detail(**cells, "boundary cells");
+    if (round < 4) {
+      EXPECT_LT(detail(**cells, "cells with leaves of no special kind"), 0.5 * all);
+    }
+  }
+}
+
 // Rays to the tip of a cone graze it there; what they meet on the way is as certain as for their neighbours.
 TEST(Cells, RaysToATipAreLikeTheirNeighbours) {
   SceneBuilder b;

@@ -9,6 +9,13 @@ void append(List& list, const List& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
+void renumber_pieces(Cell& cell, RecordKind kind, std::size_t first) {
+  for (std::size_t i = 0; i < cell.leaf_count; ++i) {
+    RecordRef& record = cell.records[i];
+    if (record.kind() == RecordKind::piece) record = {kind, record.index() + first};
+  }
+}
+
 }  // namespace
 
 ChildRef CellStore::add(const Cell& cell) {
@@ -67,6 +74,13 @@ void CellStore::append(const CellStore& part) {
   cells::append(symbols, part.symbols);
   cells::append(extended_leaves, part.extended_leaves);
   cells::append(media, part.media);
+  if (part.pieces.empty()) return;
+  for (std::size_t i = first_cell; i < cells.size(); ++i) renumber_pieces(cells[i], RecordKind::piece, pieces.size());
+  cells::append(pieces, part.pieces);
+}
+
+void CellStore::make_pieces_convex(std::size_t first) {
+  for (Cell& cell : cells) renumber_pieces(cell, RecordKind::convex, first);
 }
 
 void CellStore::rewind(const Mark& mark) {
@@ -75,6 +89,7 @@ void CellStore::rewind(const Mark& mark) {
   symbols.resize(mark.symbols);
   extended_leaves.resize(mark.extended_leaves);
   media.resize(mark.media);
+  pieces.resize(mark.pieces);
 }
 
 std::size_t CellStore::memory_bytes() const {

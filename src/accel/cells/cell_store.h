@@ -19,6 +19,7 @@ struct CellStore {
   std::vector<Symbol> symbols;
   std::vector<LeafId> extended_leaves;
   std::vector<CellMedia> media;
+  std::vector<LeafRecords::Line> pieces;  ///< records of RecordKind::piece
 
   /// What one of the values of a cell's table stands for.
   MediumId medium_of(const Cell& cell, std::uint32_t value) const {
@@ -58,13 +59,18 @@ struct CellStore {
   /// expression is left out.
   ChildRef add_extended(std::span<const Symbol> expression, std::uint32_t leaf_count);
 
+  /// Has pieces be what their records are, once these stand behind `first` others.
+  void make_pieces_convex(std::size_t first);
+
   /// Adds the cells of another store behind these.
   void append(const CellStore& part);
 
   struct Mark {
-    std::size_t cells, extended, symbols, extended_leaves, media;
+    std::size_t cells, extended, symbols, extended_leaves, media, pieces;
   };
-  Mark mark() const { return {cells.size(), extended.size(), symbols.size(), extended_leaves.size(), media.size()}; }
+  Mark mark() const {
+    return {cells.size(), extended.size(), symbols.size(), extended_leaves.size(), media.size(), pieces.size()};
+  }
   void rewind(const Mark& mark);
 
   std::size_t memory_bytes() const;

@@ -23,11 +23,15 @@ CellTree CellTree::build(const CsgTree& tree, const Box3& box, const CellScale& 
   result.records = LeafRecords::of(tree, result.scale, result.center);
   result.shapes = PlacedShapes::of(tree, result.scale);
   const LeafRegions regions(tree, &result.records);
-  BuiltCells built =
-      build_cells({tree, result.scale, result.records, regions, result.ranks, settings.quality, settings.limits},
-                  result.box, result.center, settings.threads);
+  BuiltCells built = build_cells(
+      {tree, result.scale, result.records, regions, result.ranks, result.center, settings.quality, settings.limits},
+      result.box, result.center, settings.threads);
   static_cast<CellStore&>(result) = std::move(built.store);
   result.nodes = std::move(built.nodes);
+  if (!result.pieces.empty()) {
+    result.make_pieces_convex(result.records.append(result.pieces));
+    result.pieces = {};
+  }
   result.depth = built.depth;
   std::size_t left = 0;
   for (const Cell& cell : result.cells) {

@@ -319,11 +319,21 @@ class ExactCell {
   }
 
   HWY_NOINLINE bool FinishBySpans(int on_face, CellAnswer& answer) {
-    for (const Crossing& c : FindSpans(answer.surface.leaf, on_face)) {
-      if (c.entering != answer.leaf_entering || !(std::fabs(c.t - answer.t) <= ray_.near)) continue;
+    const LeafId leaf = answer.surface.leaf;
+    const PrimitiveId primitive = tree_[leaf].primitive;
+    const auto take = [&](const Crossing& c) {
       answer.t = c.t;
       answer.surface.face = c.face;
-      return true;
+      return c.bound <= ray_.resolution();
+    };
+    if (has_crossing_near(tree_.primitives, primitive)) {
+      ++tests_;
+      const auto found =
+          crossing_near(tree_.primitives, primitive, Map(leaf, on_face), answer.t, ray_.near, answer.leaf_entering);
+      if (found) return take(*found);
+    }
+    for (const Crossing& c : FindSpans(leaf, on_face)) {
+      if (c.entering == answer.leaf_entering && std::fabs(c.t - answer.t) <= ray_.near) return take(c);
     }
     return false;
   }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "accel/cells/certainty.h"
+#include "accel/cells/planes_recorder.h"
 #include "accel/cells/spatial_order.h"
 #include "primitive/lists.h"
 
@@ -89,9 +90,7 @@ class Recorder {
   }
 
  private:
-  // A plane that is met at a slope below the least is left to the exact structure when it might be met in the scene.
-  // Larger than this, too many rays would be.
-  static constexpr double most_slope = 0x1p-9;
+  static constexpr double most_slope = PlanesRecorder::most_slope;
 
   RecordRef add(const Leaf& leaf, const Sphere& sphere) {
     const Certainty certainty(leaf, scale_);
@@ -264,19 +263,10 @@ class Recorder {
   }
 
   RecordRef add(const Leaf& leaf, const ConvexPolyhedron& solid) {
-    const Certainty certainty(leaf, scale_);
-    const Placement& p = leaf.placement;
-    std::vector<double> values{static_cast<double>(solid.planes.size()), 0};
-    for (const Plane& plane : solid.planes) {
-      const Vec3 n = p.local_from_world_linear().transposed_direction(plane.normal);
-      const double scale = length(n);
-      const double d = plane.d + dot(n, p.world_origin() - center_);
-      for (const double v : {n.x / scale, n.y / scale, n.z / scale, d / scale}) values.push_back(v);
-      const double error = dot(abs(plane.normal), certainty.place()) + gamma(8) * std::fabs(plane.d);
-      values[ConvexRecord::least] = std::max(values[ConvexRecord::least], certainty.least_slope(error) / scale);
-    }
-    if (!(values[ConvexRecord::least] <= most_slope)) return {RecordKind::general, 0};
-    return append(RecordKind::convex, values);
+    PlanesRecorder planes(leaf, scale_, center_);
+    for (const Plane& plane : solid.planes) planes.add(plane, gamma(8) * std::fabs(plane.d));
+    if (!(planes.least_slope() <= most_slope)) return {RecordKind::general, 0};
+    return append(RecordKind::convex, planes.values());
   }
 
   static void put(std::vector<double>& values, std::size_t at, const Vec3& v) {
@@ -291,12 +281,7 @@ class Recorder {
   }
 
   RecordRef append(RecordKind kind, const std::vector<double>& values) {
-    const RecordRef ref(kind, records_.lines.size());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (i % 8 == 0) records_.lines.emplace_back();
-      records_.lines.back().values[i % 8] = values[i];
-    }
-    return ref;
+    return {kind, append_values(values, records_.lines)};
   }
 
   const CsgTree& tree_;
@@ -324,6 +309,12 @@ bool LeafRecords::start_is_certain(RecordRef ref, const Vec3& direction) const {
     return is_certain(r + FrustumRecord::profile, row(0), row(1), row(2));
   }
   return true;
+}
+
+std::size_t LeafRecords::append(const std::vector<Line>& pieces) {
+  const std::size_t first = lines.size();
+  lines.insert(lines.end(), pieces.begin(), pieces.end());
+  return first;
 }
 
 LeafRecords LeafRecords::of(const CsgTree& tree, const CellScale& scale, const Vec3& center) {

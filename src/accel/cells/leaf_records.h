@@ -14,7 +14,20 @@ namespace tenon::cells {
 /// is resolved by the classifier
 /// there. So it does where an `instance` stands among other leaves; one that has a cell to itself is followed through
 /// the cells of its own.
-enum class RecordKind : std::uint8_t { general, ball, aligned_box, box, upright, frustum, convex, torus, instance };
+///
+/// A `piece` is what is left of a leaf in one cell (LeafPieces). Once all cells are built, its record is a convex one.
+enum class RecordKind : std::uint8_t {
+  general,
+  ball,
+  aligned_box,
+  box,
+  upright,
+  frustum,
+  convex,
+  torus,
+  instance,
+  piece
+};
 
 /// Whether a leaf of the kind has a record.
 inline bool is_followed(RecordKind kind) {
@@ -102,6 +115,9 @@ struct LeafRecords {
   static bool may_doubt_starts(RecordKind kind) { return kind == RecordKind::upright || kind == RecordKind::frustum; }
 
   std::size_t memory_bytes() const { return of_leaf.size() * sizeof(RecordRef) + lines.size() * sizeof(Line); }
+
+  /// Has the records of pieces stand behind these. @return the index that is now of the first
+  std::size_t append(const std::vector<Line>& pieces);
 
   static LeafRecords of(const CsgTree& tree, const CellScale& scale, const Vec3& center);
 };

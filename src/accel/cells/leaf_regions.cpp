@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "accel/cells/cell_cost.h"
+#include "accel/cells/leaf_pieces.h"
 #include "csg/enclosures.h"
 #include "primitive/dispatch.h"
 #include "primitive/lists.h"
@@ -86,6 +87,7 @@ LeafRegions::LeafRegions(const CsgTree& tree, const LeafRecords* records)
       region.price = static_cast<float>(price);
     }
     add_shape(leaf, region);
+    region.has_pieces = records != nullptr && LeafPieces::may_have(tree, leaf);
   }
 }
 

@@ -26,6 +26,7 @@ struct RegionLeaf {
   double extent = 0;        ///< how large its features are: the longest edge of its bounds, for a ring across its tube
   float price = 1;          ///< CellCost::of_leaf
   Kind kind = Kind::general;
+  bool has_pieces = false;      ///< see LeafPieces
   std::uint8_t round_axes = 0;  ///< bit a: distances along axis a count. Along the others a plain leaf is its bounds
   LeafId leaf;
   std::uint32_t shape = 0;  ///< of rings and turned boxes: which; of an instance: its PrototypeId

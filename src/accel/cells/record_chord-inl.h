@@ -267,6 +267,7 @@ HWY_INLINE Stretch<D> FindStretch(D d, const SceneRays<D>& ray, RecordKind kind,
       return TorusStretch(d, ray, r, t_in, t_out, lanes);
     case RecordKind::general:
     case RecordKind::instance:
+    case RecordKind::piece:
       break;
   }
   Stretch<D> none = WholeStretch(d);

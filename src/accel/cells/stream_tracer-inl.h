@@ -210,6 +210,7 @@ class StreamTracer {
         return MeetOneByOne();
       case RecordKind::general:
       case RecordKind::instance:
+      case RecordKind::piece:
         break;
     }
   }

@@ -43,6 +43,7 @@ struct SubdivisionInput {
   const LeafRecords& records;
   const LeafRegions& regions;
   const OwnerRanks& ranks;
+  const Vec3& center;  ///< what records are relative to
   BuildQuality quality;
   BuildLimits limits;
 };

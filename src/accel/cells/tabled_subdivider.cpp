@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "accel/cells/cell_cost.h"
+#include "accel/cells/planes_recorder.h"
 #include "accel/cells/split_limits.h"
 
 namespace tenon::cells {
@@ -52,7 +53,8 @@ Subdivision::Built TabledSubdivider::build(const Part& part) {
 }
 
 bool TabledSubdivider::worth_splitting(const Part& part) const {
-  if (std::popcount(part.rest.leaves) <= 1 || result_->store.cells.size() > most_cells_) return false;
+  const bool may_gain = std::popcount(part.rest.leaves) > 1 || part.may_come_to_pieces;
+  if (!may_gain || result_->store.cells.size() > most_cells_) return false;
   if (part.depth >= input_.limits.depth) return false;
   // What costs twice as much is worth one more try.
   if (part.unpaid >= input_.quality.look_ahead + std::ilogb(search_.cell_cost(part.rest.leaves))) return false;
@@ -62,15 +64,33 @@ bool TabledSubdivider::worth_splitting(const Part& part) const {
   return edge > input_.quality.finest * smallest && edge > 8 * input_.scale.growth;
 }
 
-TabledSubdivider::Part TabledSubdivider::make_part(const Box3& box, const FoldedTable& rest, int depth) const {
+TabledSubdivider::Part TabledSubdivider::make_part(const Box3& box, const FoldedTable& rest, int depth) {
   // The boundary lies on the surfaces of the leaves.
   const Box3 within = grown(box, input_.scale.growth);
   Box3 around;
-  for_each_bit(rest.leaves,
-               [&](std::size_t i) { around = hull(around, input_.regions.surface_within(search_.leaf(i), within)); });
-  if (around.is_empty()) return {box, {}, {}, 0, depth, 0};
+  double cost = search_.cell_cost(rest.leaves);
+  bool may_come_to_pieces = false;
+  for_each_bit(rest.leaves, [&](std::size_t i) {
+    const RegionLeaf& leaf = search_.leaf(i);
+    if (leaf.has_pieces && pieces_.find(leaf.leaf, within)) {
+      around = hull(around, pieces_.surface());
+      cost += CellCost::of_leaf(RecordKind::piece, 0) - static_cast<double>(leaf.price);
+      return;
+    }
+    may_come_to_pieces |= leaf.has_pieces;
+    around = hull(around, input_.regions.surface_within(leaf, within));
+  });
+  if (around.is_empty()) return {box, {}, {}, 0, false, depth, 0};
   const Box3 tight = intersection(box, grown(around, input_.scale.growth));
-  return {box, rest, tight, tight.surface_area() * search_.cell_cost(rest.leaves), depth, 0};
+  return {box, rest, tight, tight.surface_area() * cost, may_come_to_pieces, depth, 0};
+}
+
+// What a leaf is followed by in a part: its own record, or that of what it comes to there.
+RecordRef TabledSubdivider::record(LeafId leaf, const Part& part) {
+  const RecordRef own = input_.records.of_leaf[leaf.get()];
+  if (!input_.regions[leaf].has_pieces) return own;
+  if (!pieces_.find(leaf, grown(part.box, input_.scale.growth))) return own;
+  return {RecordKind::piece, append_values(pieces_.values(), result_->store.pieces)};
 }
 
 ChildRef TabledSubdivider::add_cell(const Part& part) {
@@ -79,7 +99,7 @@ ChildRef TabledSubdivider::add_cell(const Part& part) {
   std::array<std::uint32_t, SplitSearch::most> variables{};
   for_each_bit(part.rest.leaves, [&](std::size_t i) {
     const LeafId leaf = expression_.leaves[i];
-    const RecordRef record = input_.records.of_leaf[leaf.get()];
+    const RecordRef record = this->record(leaf, part);
     variables[cell.leaf_count] = 1U << i;
     cell.leaves[cell.leaf_count] = leaf;
     cell.records[cell.leaf_count] = record;

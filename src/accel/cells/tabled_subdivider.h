@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 
+#include "accel/cells/leaf_pieces.h"
 #include "accel/cells/split_search.h"
 #include "accel/cells/subdivision.h"
 #include "accel/cells/tabled_expression.h"
@@ -15,7 +16,8 @@ namespace tenon::cells {
 class TabledSubdivider {
  public:
   explicit TabledSubdivider(const SubdivisionInput& input)
-      : input_(input), expression_(input.ranks), search_(input.regions, input.scale.growth, input.quality.beside) {}
+      : input_(input), expression_(input.ranks), search_(input.regions, input.scale.growth, input.quality.beside),
+        pieces_(input.tree, input.scale, input.center) {}
 
   /// @param most_cells  when `result` holds more, nothing is split any further
   /// @return nothing where more media meet than a table can tell apart
@@ -28,18 +30,21 @@ class TabledSubdivider {
     FoldedTable rest;
     Box3 tight;       // around the boundary
     double cost = 0;  // as one cell, times the area of `tight`
+    bool may_come_to_pieces = false;  // some leaf is of a kind that has them, but not here
     int depth = 0;
     int unpaid = 0;  // splits in a row, on the way here, that pay only if others do that follow
   };
 
   Subdivision::Built build(const Part& part);
   bool worth_splitting(const Part& part) const;
-  Part make_part(const Box3& box, const FoldedTable& rest, int depth) const;
+  Part make_part(const Box3& box, const FoldedTable& rest, int depth);
+  RecordRef record(LeafId leaf, const Part& part);
   ChildRef add_cell(const Part& part);
 
   const SubdivisionInput& input_;
   TabledExpression expression_;
   SplitSearch search_;
+  LeafPieces pieces_;
   std::size_t most_cells_ = 0;
   Subdivision* result_ = nullptr;
 };

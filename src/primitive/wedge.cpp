@@ -1,0 +1,143 @@
+#include "primitive/wedge.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace tenon {
+
+namespace {
+
+/// A straight edge and the side of its line that it looks away from.
+struct Wall {
+  Vec2 from, along;  ///< along is the whole edge
+  double length = 0;
+  Vec2 right;     ///< of length 1
+  int solid = 0;  ///< 1: to the right, -1: to the left, 0: not known yet
+
+  double distance(const Vec2& p) const { return dot(right, p - from); }
+};
+
+class WedgeSearch {
+ public:
+  WedgeSearch(const OutlineEdges& edges, std::span<const std::uint32_t> numbers, const LocalBox& box)
+      : edges_(edges), box_(box), count_(numbers.size()) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      const OutlineEdge& edge = edges.edges()[numbers[i]];
+      const Vec2 w = edge.chord();
+      const double size = length(w);
+      walls_[i] = {edge.from, w, size, {w.y / size, -w.x / size}, 0};
+    }
+    lower_ = {box.bounds.lower.x, box.bounds.lower.y};
+    upper_ = {box.bounds.upper.x, box.bounds.upper.y};
+    // Well above what the arithmetic here rounds, and as far below what two crossings are told apart by (2^-27 of the
+    // scene, in which the outline lies).
+    const Vec2 reach = max(edges.reach(), max(abs(lower_), abs(upper_)));
+    slip_ = 0x1p-44 * length(reach);
+  }
+
+  bool run() {
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (!(walls_[i].length > 0) || (count_ > 1 && !find_side(walls_[i]))) return false;
+    }
+    if (count_ == 1) walls_[0].solid = contains_clear_point() == (walls_[0].distance(clear_point()) > 0) ? 1 : -1;
+    if (!(clearance(clear_point()) > slip_)) return false;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (!covers_its_line(i)) return false;
+    }
+    return contains_clear_point() == is_within(clear_point());
+  }
+
+  std::array<HalfPlane, 4> half_planes() const {
+    std::array<HalfPlane, 4> result;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Vec2 outward = -walls_[i].solid * walls_[i].right;
+      result[i] = {outward, dot(outward, walls_[i].from)};
+    }
+    return result;
+  }
+
+ private:
+  // The side on which all other walls lie.
+  bool find_side(Wall& wall) const {
+    double least = 0, most = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      for (const Vec2& end : {walls_[i].from, walls_[i].from + walls_[i].along}) {
+        if (&walls_[i] == &wall) continue;
+        least = std::min(least, wall.distance(end));
+        most = std::max(most, wall.distance(end));
+      }
+    }
+    if (least < -slip_ && most > slip_) return false;
+    wall.solid = most > slip_ ? 1 : least < -slip_ ? -1 : 0;
+    return wall.solid != 0;
+  }
+
+  // Whether what the other half-planes and the box leave of a wall's line belongs to the wall.
+  bool covers_its_line(std::size_t i) const {
+    const Wall& wall = walls_[i];
+    double first = -std::numeric_limits<double>::infinity(), last = -first;
+    // value + s slope >= 0 for the parts of the whole edge, s
+    const auto clip = [&](double value, double slope) {
+      if (slope > 0) {
+        first = std::max(first, -value / slope);
+      } else if (slope < 0) {
+        last = std::min(last, -value / slope);
+      } else if (value < -slip_) {
+        last = -std::numeric_limits<double>::infinity();
+      }
+    };
+    clip(wall.from.x - lower_.x, wall.along.x);
+    clip(upper_.x - wall.from.x, -wall.along.x);
+    clip(wall.from.y - lower_.y, wall.along.y);
+    clip(upper_.y - wall.from.y, -wall.along.y);
+    for (std::size_t k = 0; k < count_; ++k) {
+      if (k == i) continue;
+      const Wall& other = walls_[k];
+      clip(other.solid * other.distance(wall.from), other.solid * dot(other.right, wall.along));
+    }
+    const double slip = 4 * slip_ / wall.length;
+    return !(first <= last) || (first >= -slip && last <= 1 + slip);
+  }
+
+  // Of a few points of the box, the one that is farthest from all lines.
+  Vec2 clear_point() const {
+    Vec2 best{box_.center.x, box_.center.y};
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 halfway = 0.5 * (box_.center + box_.corner(corner));
+      const Vec2 p{halfway.x, halfway.y};
+      if (clearance(p) > clearance(best)) best = p;
+    }
+    return best;
+  }
+  double clearance(const Vec2& p) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < count_; ++i) least = std::min(least, std::fabs(walls_[i].distance(p)));
+    return least;
+  }
+  bool contains_clear_point() const { return edges_.contains(clear_point()); }
+  bool is_within(const Vec2& p) const {
+    return std::all_of(walls_.begin(), walls_.begin() + static_cast<std::ptrdiff_t>(count_),
+                       [&](const Wall& wall) { return wall.solid * wall.distance(p) > 0; });
+  }
+
+  const OutlineEdges& edges_;
+  const LocalBox& box_;
+  const std::size_t count_;
+  std::array<Wall, 4> walls_;
+  Vec2 lower_, upper_;
+  double slip_;
+};
+
+}  // namespace
+
+std::optional<std::array<HalfPlane, 4>> find_wedge(const OutlineEdges& edges, std::span<const std::uint32_t> walls,
+                                                   const LocalBox& box) {
+  assert(!walls.empty() && walls.size() <= 4);
+  WedgeSearch search(edges, walls, box);
+  if (!search.run()) return std::nullopt;
+  return search.half_planes();
+}
+
+}  // namespace tenon

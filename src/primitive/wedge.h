@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "math/vec2.h"
+#include "primitive/local_box.h"
+#include "primitive/outline_edges.h"
+
+namespace tenon {
+
+/// n·p <= d in the plane, n of length 1.
+struct HalfPlane {
+  Vec2 normal;
+  double d = 0;
+};
+
+/// What straight edges of an outline bound within a box, where that is convex: there, and there alone, the outline is
+/// the half-planes' intersection.
+///
+/// It is if no edge leaves the half-plane of another, and all of an edge's line that lies in the box and in the other
+/// half-planes belongs to the edge: then the half-planes' intersection and the outline have the same boundary there.
+///
+/// @param walls  edges, by their numbers: all that go through the box as seen along z; none is an arc
+/// @return none where it is not convex, or that cannot be told for certain
+std::optional<std::array<HalfPlane, 4>> find_wedge(const OutlineEdges& edges, std::span<const std::uint32_t> walls,
+                                                   const LocalBox& box);
+
+}  // namespace tenon

@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "primitive/prism.h"
+#include "primitive/random_placement.h"
+
+namespace tenon {
+namespace {
+
+// A polygon around the origin whose radius jumps, with a hole of the same kind; corners on a coarse lattice now and
+// then, so that edges run along the axes, and neighbours in line.
+Outline random_outline(Random& random, bool with_arcs) {
+  Outline outline;
+  for (const double size : {2.0, 0.6}) {
+    if (size < 1 && random.chance(0.5)) break;
+    std::vector<OutlineCorner>& loop = outline.loops.emplace_back();
+    const int corners = 3 + random.below(8);
+    const bool on_lattice = random.chance(0.3);
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + random.uniform(0.1, 0.9)) / corners;
+      const double r = size * random.uniform(0.5, 1);
+      OutlineCorner corner{r * std::cos(angle), r * std::sin(angle), 0};
+      if (on_lattice) corner = {std::round(4 * corner.x) / 4, std::round(4 * corner.y) / 4, 0};
+      if (with_arcs && random.chance(0.4)) corner.bulge = random.uniform(-0.3, 0.3);
+      loop.push_back(corner);
+    }
+    if (random.chance(0.5)) std::reverse(loop.begin(), loop.end());
+  }
+  return outline;
+}
+
+Prism random_prism(Random& random, bool with_arcs) {
+  Prism prism;
+  do {
+    prism.outline = random_outline(random, with_arcs);
+  } while (!prism.check().empty());
+  prism.h = random.uniform(0.5, 2);
+  prism.center = random.chance(0.5);
+  prism.prepare();
+  return prism;
+}
+
+// By the even-odd rule, along x. @return how far the nearest edge is, negative within
+double distance_within(const Outline& outline, double x, double y) {
+  bool inside = false;
+  double nearest = HUGE_VAL;
+  for (const auto& loop : outline.loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const OutlineCorner &a = loop[i], &b = loop[(i + 1) % loop.size()];
+      if ((a.y > y) != (b.y > y) && x < (b.x - a.x) * (y - a.y) / (b.y - a.y) + a.x) inside = !inside;
+      const double wx = b.x - a.x, wy = b.y - a.y, square = wx * wx + wy * wy;
+      const double s = square > 0 ? std::clamp(((x - a.x) * wx + (y - a.y) * wy) / square, 0.0, 1.0) : 0;
+      nearest = std::min(nearest, std::hypot(x - a.x - s * wx, y - a.y - s * wy));
+    }
+  }
+  return inside ? -nearest : nearest;
+}
+
+// Where a prism is said to be what lies below some planes, it is.
+TEST(PrismPieces, PlanesHoldThePrismWithinTheirBox) {
+  Random random(91);
+  int pieces = 0, corners = 0, points = 0, inside = 0;
+  for (int round = 0; round < 20000; ++round) {
+    const Prism prism = random_prism(random, false);
+    const Affine3 map =
+        random.chance(0.5) ? Affine3::rotate({0, 0, 0}) : Affine3::rotate(90 * random.in_cube() + Vec3{10, 0, 0});
+    const auto placement = Placement::create(BoundedAffine3::elementary(map), {0, 0, 0});
+    ASSERT_TRUE(placement);
+    // Around a place on an edge, mostly.
+    const auto& loop = prism.outline.loops[random.below(static_cast<int>(prism.outline.loops.size()))];
+    const std::size_t at = static_cast<std::size_t>(random.below(static_cast<int>(loop.size())));
+    const OutlineCorner &a = loop[at], &b = loop[(at + 1) % loop.size()];
+    const double s = random.chance(0.3) ? 0 : random.uniform(0, 1);
+    const Vec3 local{a.x + s * (b.x - a.x), a.y + s * (b.y - a.y), random.uniform(prism.low(), prism.high())};
+    const Vec3 middle = map.point(local), half = random.magnitude(-5, -1) * Vec3{1, random.uniform(0.3, 1), 1};
+    const Box3 box{middle - half, middle + half};
+    std::vector<Plane> planes;
+    if (!prism.planes_within(placement->to_local(box), planes)) continue;
+    ++pieces;
+    corners += planes.size() > 1;
+    for (const Plane& plane : planes) EXPECT_NEAR(length(plane.normal), 1, 1e-12);
+    for (int i = 0; i < 50; ++i, ++points) {
+      const Vec3 p = placement->point_to_local(box.center() + half * random.in_cube());
+      double beyond = -HUGE_VAL;
+      for (const Plane& plane : planes) beyond = std::max(beyond, dot(plane.normal, p) - plane.d);
+      const double across = distance_within(prism.outline, p.x, p.y);
+      const double along = std::max(prism.low() - p.z, p.z - prism.high());
+      if (std::fabs(across) < 1e-9 || std::fabs(along) < 1e-9) continue;
+      ASSERT_EQ(beyond < 0, across < 0 && along < 0) << "round " << round << " point " << i;
+      inside += beyond < 0;
+    }
+  }
+  EXPECT_GT(pieces, 6000);
+  EXPECT_GT(corners, 500);
+  EXPECT_GT(inside, points / 4);
+  EXPECT_LT(inside, 3 * points / 4);
+}
+
+// A crossing that is found from its neighbourhood is that of spans(), to the last bit.
+TEST(PrismPieces, CrossingsFoundFromNearbyAreThoseOfSpans) {
+  Random random(92);
+  int asked = 0, found = 0;
+  for (int round = 0; round < 15000; ++round) {
+    Prism prism = random_prism(random, random.chance(0.5));
+    if (random.chance(0.3)) prism.scale = random.uniform(0.3, 2);
+    for (int i = 0; i < 10; ++i) {
+      LocalRay ray;
+      const Vec3 aim = 2 * random.in_cube();
+      ray.direction = random.chance(0.1) ? Vec3{0, 0, 1} : random.direction();
+      ray.origin = aim + 0.1 * random.in_cube();
+      const double error = random.magnitude(-15, -10);
+      ray.origin_error = {error, error, error};
+      ray.direction_error = 0.1 * ray.origin_error;
+      Spans spans;
+      prism.spans(ray, spans);
+      for (const Crossing& c : spans) {
+        const double near = 1e-7;
+        ++asked;
+        const auto known = prism.crossing_near(ray, c.t + 0.5 * near * random.uniform(-1, 1), near, c.entering);
+        if (!known) continue;
+        ++found;
+        EXPECT_EQ(known->t, c.t);
+        EXPECT_EQ(known->face, c.face);
+        EXPECT_EQ(known->entering, c.entering);
+        EXPECT_GE(known->bound, c.bound);
+      }
+    }
+  }
+  EXPECT_GT(found, asked / 2);
+}
+
+}  // namespace
+}  // namespace tenon
