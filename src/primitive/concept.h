@@ -37,8 +37,8 @@ Field(std::string_view, Unit, T P::*, std::string_view) -> Field<P, T>;
 ///   normal(point, face)    outward, any length but zero
 ///   crossing_near(ray, t, near, entering)   if any: the crossing of spans() within `near` of t, if it is certainly the
 ///                          only one within twice that; nothing where that takes the whole of spans() to tell
-///   planes_within(box, planes)   if any: whether within the box the solid is what lies below all of some planes,
-///                          normals of length 1; says no where that is not certain
+///   planes_within(box, planes)   if any: how some planes, with normals of length 1, make up the part of the solid within
+///                          the box (PlanarPart)
 template <class P>
 concept SolidPrimitive = std::semiregular<P> &&
     requires(const P& p, const LocalRay& ray, Spans& out, const LocalBox& box, const Vec3& v, std::uint32_t face) {

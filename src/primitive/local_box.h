@@ -10,6 +10,13 @@ namespace tenon {
 /// Where a box lies with respect to a solid. `outside` and `inside` are certain; `straddles` is always a right answer.
 enum class Region { outside, inside, straddles };
 
+/// How some planes, each the bound of what lies below it (n·p <= d), make up the part of a solid within a box.
+enum class PlanarPart {
+  unknown,    ///< they do not, or that is not certain
+  below_all,  ///< the solid is what lies below all of them
+  above_any,  ///< it is what lies above one of them, at least: all but a notch
+};
+
 /// A box of the world seen from a primitive's local frame, where it is a parallelepiped.
 struct LocalBox {
   Vec3 center;

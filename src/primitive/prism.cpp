@@ -428,9 +428,9 @@ Region Prism::classify(const LocalBox& box) const {
   return between_caps ? Region::inside : Region::straddles;
 }
 
-bool Prism::planes_within(const LocalBox& box, std::vector<Plane>& planes) const {
+PlanarPart Prism::planes_within(const LocalBox& box, std::vector<Plane>& planes) const {
   planes.clear();
-  if (scale != 1) return false;
+  if (scale != 1) return PlanarPart::unknown;
   const double bottom_z = low(), top_z = high();
   if (box.bounds.lower.z <= bottom_z && bottom_z <= box.bounds.upper.z) planes.push_back({{0, 0, -1}, -bottom_z});
   if (box.bounds.lower.z <= top_z && top_z <= box.bounds.upper.z) planes.push_back({{0, 0, 1}, top_z});
@@ -448,15 +448,19 @@ bool Prism::planes_within(const LocalBox& box, std::vector<Plane>& planes) const
     walls_there[count++] = i;
     return true;
   });
-  if (!are_few) return false;
-  if (count == 0) return !planes.empty() && edges_.contains({box.center.x, box.center.y});
+  if (!are_few) return PlanarPart::unknown;
+  if (count == 0) {
+    const bool is_inside = edges_.contains({box.center.x, box.center.y});
+    return !planes.empty() && is_inside ? PlanarPart::below_all : PlanarPart::unknown;
+  }
   const auto wedge = find_wedge(edges_, std::span(walls_there).first(count), box);
-  if (!wedge) return false;
+  // What a cap leaves of all but a notch is not of either kind.
+  if (!wedge || !(wedge->is_solid || planes.empty())) return PlanarPart::unknown;
   for (std::size_t i = 0; i < count; ++i) {
-    const HalfPlane& side = (*wedge)[i];
+    const HalfPlane& side = wedge->sides[i];
     planes.push_back({{side.normal.x, side.normal.y, 0}, side.d});
   }
-  return true;
+  return wedge->is_solid ? PlanarPart::below_all : PlanarPart::above_any;
 }
 
 // A point of a box, between the caps if the box is anywhere.

@@ -50,7 +50,7 @@ class Prism {
   Region classify(const LocalBox& box) const;
   std::uint32_t face_count() const { return walls + 2 * static_cast<std::uint32_t>(edges_.edges().size()); }
   Vec3 normal(const Vec3& point, std::uint32_t face) const;
-  bool planes_within(const LocalBox& box, std::vector<Plane>& planes) const;
+  PlanarPart planes_within(const LocalBox& box, std::vector<Plane>& planes) const;
 
  private:
   class Line;

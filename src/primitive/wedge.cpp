@@ -9,12 +9,12 @@ namespace tenon {
 
 namespace {
 
-/// A straight edge and the side of its line that it looks away from.
+/// A straight edge and the side of its line on which the wedge lies.
 struct Wall {
   Vec2 from, along;  ///< along is the whole edge
   double length = 0;
-  Vec2 right;     ///< of length 1
-  int solid = 0;  ///< 1: to the right, -1: to the left, 0: not known yet
+  Vec2 right;    ///< of length 1
+  int side = 0;  ///< 1: to the right, -1: to the left, 0: not known yet
 
   double distance(const Vec2& p) const { return dot(right, p - from); }
 };
@@ -41,20 +41,21 @@ class WedgeSearch {
     for (std::size_t i = 0; i < count_; ++i) {
       if (!(walls_[i].length > 0) || (count_ > 1 && !find_side(walls_[i]))) return false;
     }
-    if (count_ == 1) walls_[0].solid = contains_clear_point() == (walls_[0].distance(clear_point()) > 0) ? 1 : -1;
+    if (count_ == 1) walls_[0].side = contains_clear_point() == (walls_[0].distance(clear_point()) > 0) ? 1 : -1;
     if (!(clearance(clear_point()) > slip_)) return false;
     for (std::size_t i = 0; i < count_; ++i) {
       if (!covers_its_line(i)) return false;
     }
-    return contains_clear_point() == is_within(clear_point());
+    return true;
   }
 
-  std::array<HalfPlane, 4> half_planes() const {
-    std::array<HalfPlane, 4> result;
+  Wedge wedge() const {
+    Wedge result;
     for (std::size_t i = 0; i < count_; ++i) {
-      const Vec2 outward = -walls_[i].solid * walls_[i].right;
-      result[i] = {outward, dot(outward, walls_[i].from)};
+      const Vec2 outward = -walls_[i].side * walls_[i].right;
+      result.sides[i] = {outward, dot(outward, walls_[i].from)};
     }
+    result.is_solid = contains_clear_point() == is_within(clear_point());
     return result;
   }
 
@@ -70,8 +71,8 @@ class WedgeSearch {
       }
     }
     if (least < -slip_ && most > slip_) return false;
-    wall.solid = most > slip_ ? 1 : least < -slip_ ? -1 : 0;
-    return wall.solid != 0;
+    wall.side = most > slip_ ? 1 : least < -slip_ ? -1 : 0;
+    return wall.side != 0;
   }
 
   // Whether what the other half-planes and the box leave of a wall's line belongs to the wall.
@@ -95,7 +96,7 @@ class WedgeSearch {
     for (std::size_t k = 0; k < count_; ++k) {
       if (k == i) continue;
       const Wall& other = walls_[k];
-      clip(other.solid * other.distance(wall.from), other.solid * dot(other.right, wall.along));
+      clip(other.side * other.distance(wall.from), other.side * dot(other.right, wall.along));
     }
     const double slip = 4 * slip_ / wall.length;
     return !(first <= last) || (first >= -slip && last <= 1 + slip);
@@ -119,7 +120,7 @@ class WedgeSearch {
   bool contains_clear_point() const { return edges_.contains(clear_point()); }
   bool is_within(const Vec2& p) const {
     return std::all_of(walls_.begin(), walls_.begin() + static_cast<std::ptrdiff_t>(count_),
-                       [&](const Wall& wall) { return wall.solid * wall.distance(p) > 0; });
+                       [&](const Wall& wall) { return wall.side * wall.distance(p) > 0; });
   }
 
   const OutlineEdges& edges_;
@@ -132,12 +133,11 @@ class WedgeSearch {
 
 }  // namespace
 
-std::optional<std::array<HalfPlane, 4>> find_wedge(const OutlineEdges& edges, std::span<const std::uint32_t> walls,
-                                                   const LocalBox& box) {
+std::optional<Wedge> find_wedge(const OutlineEdges& edges, std::span<const std::uint32_t> walls, const LocalBox& box) {
   assert(!walls.empty() && walls.size() <= 4);
   WedgeSearch search(edges, walls, box);
   if (!search.run()) return std::nullopt;
-  return search.half_planes();
+  return search.wedge();
 }
 
 }  // namespace tenon

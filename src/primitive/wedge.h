@@ -15,15 +15,19 @@ struct HalfPlane {
   double d = 0;
 };
 
-/// What straight edges of an outline bound within a box, where that is convex: there, and there alone, the outline is
-/// the half-planes' intersection.
+/// The intersection of half-planes, as many as edges were given, and whether it is solid or a notch.
+struct Wedge {
+  std::array<HalfPlane, 4> sides;
+  bool is_solid = true;
+};
+
+/// What straight edges of an outline bound within a box, where that, or what it leaves of the box, is convex.
 ///
 /// It is if no edge leaves the half-plane of another, and all of an edge's line that lies in the box and in the other
 /// half-planes belongs to the edge: then the half-planes' intersection and the outline have the same boundary there.
 ///
 /// @param walls  edges, by their numbers: all that go through the box as seen along z; none is an arc
-/// @return none where it is not convex, or that cannot be told for certain
-std::optional<std::array<HalfPlane, 4>> find_wedge(const OutlineEdges& edges, std::span<const std::uint32_t> walls,
-                                                   const LocalBox& box);
+/// @return none where neither is convex, or that cannot be told for certain
+std::optional<Wedge> find_wedge(const OutlineEdges& edges, std::span<const std::uint32_t> walls, const LocalBox& box);
 
 }  // namespace tenon

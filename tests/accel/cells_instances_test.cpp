@@ -13,10 +13,12 @@ using namespace cells_checks;
 
 // A part of all kinds of leaf, with faces that are flush and edges that are cut.
 SceneNodeId bracket(SceneBuilder& b) {
+  const Outline angle{{{{0, 0, 0}, {0.9, 0, 0}, {0.9, 0.2, 0}, {0.3, 0.3, 0}, {0.3, 0.5, 0}, {0, 0.5, 0}}}};
   return b.unite({b.subtract({b.cube({2, 1, 1}), b.translate({0.5, 0.5, -1}, b.cylinder(3, 0.3)),
                               b.translate({1, 0, 0.5}, b.cube({1, 1, 0.5})), b.translate({2, 1, 0.5}, b.sphere(0.4)),
                               b.rotate({0, 0, 45}, b.cube({0.4, 0.4, 3}, true))}),
                   b.translate({1.5, 0.5, 0.5}, b.primitive("cone", {0.5, 0.3, 0.1, false})),
+                  b.translate({1.05, 0, 0.5}, b.primitive("prism", {angle, 0.3, false, 1.0})),
                   b.translate({0.5, 0.5, 1}, b.torus(0.35, 0.1)), b.translate({0, 0, 1}, b.cube({0.2, 1, 0.25}))});
 }
 

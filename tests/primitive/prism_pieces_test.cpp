@@ -61,7 +61,7 @@ double distance_within(const Outline& outline, double x, double y) {
 // Where a prism is said to be what lies below some planes, it is.
 TEST(PrismPieces, PlanesHoldThePrismWithinTheirBox) {
   Random random(91);
-  int pieces = 0, corners = 0, points = 0, inside = 0;
+  int pieces = 0, corners = 0, notches = 0, points = 0, inside = 0;
   for (int round = 0; round < 20000; ++round) {
     const Prism prism = random_prism(random, false);
     const Affine3 map =
@@ -77,7 +77,10 @@ TEST(PrismPieces, PlanesHoldThePrismWithinTheirBox) {
     const Vec3 middle = map.point(local), half = random.magnitude(-5, -1) * Vec3{1, random.uniform(0.3, 1), 1};
     const Box3 box{middle - half, middle + half};
     std::vector<Plane> planes;
-    if (!prism.planes_within(placement->to_local(box), planes)) continue;
+    const PlanarPart part = prism.planes_within(placement->to_local(box), planes);
+    if (part == PlanarPart::unknown) continue;
+    const bool is_notch = part == PlanarPart::above_any;
+    notches += is_notch && planes.size() > 1;
     ++pieces;
     corners += planes.size() > 1;
     for (const Plane& plane : planes) EXPECT_NEAR(length(plane.normal), 1, 1e-12);
@@ -88,12 +91,13 @@ TEST(PrismPieces, PlanesHoldThePrismWithinTheirBox) {
       const double across = distance_within(prism.outline, p.x, p.y);
       const double along = std::max(prism.low() - p.z, p.z - prism.high());
       if (std::fabs(across) < 1e-9 || std::fabs(along) < 1e-9) continue;
-      ASSERT_EQ(beyond < 0, across < 0 && along < 0) << "round " << round << " point " << i;
-      inside += beyond < 0;
+      ASSERT_EQ((beyond < 0) != is_notch, across < 0 && along < 0) << "round " << round << " point " << i;
+      inside += across < 0 && along < 0;
     }
   }
   EXPECT_GT(pieces, 6000);
   EXPECT_GT(corners, 500);
+  EXPECT_GT(notches, 200);
   EXPECT_GT(inside, points / 4);
   EXPECT_LT(inside, 3 * points / 4);
 }

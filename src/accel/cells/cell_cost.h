@@ -34,6 +34,7 @@ struct CellCost {
         return 1.8;
       case RecordKind::frustum:
       case RecordKind::convex:
+      case RecordKind::notch:
       case RecordKind::piece:
         return 2.5;
       case RecordKind::torus:

@@ -9,10 +9,12 @@ void append(List& list, const List& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
-void renumber_pieces(Cell& cell, RecordKind kind, std::size_t first) {
+/// Moves the records of a cell's pieces behind `first` others. @param kind_of  kind_of(index) of each
+template <class KindOf>
+void move_pieces(Cell& cell, std::size_t first, const KindOf& kind_of) {
   for (std::size_t i = 0; i < cell.leaf_count; ++i) {
     RecordRef& record = cell.records[i];
-    if (record.kind() == RecordKind::piece) record = {kind, record.index() + first};
+    if (record.kind() == RecordKind::piece) record = {kind_of(record.index()), record.index() + first};
   }
 }
 
@@ -75,12 +77,18 @@ void CellStore::append(const CellStore& part) {
   cells::append(extended_leaves, part.extended_leaves);
   cells::append(media, part.media);
   if (part.pieces.empty()) return;
-  for (std::size_t i = first_cell; i < cells.size(); ++i) renumber_pieces(cells[i], RecordKind::piece, pieces.size());
+  for (std::size_t i = first_cell; i < cells.size(); ++i) {
+    move_pieces(cells[i], pieces.size(), [](std::uint32_t) { return RecordKind::piece; });
+  }
   cells::append(pieces, part.pieces);
 }
 
-void CellStore::make_pieces_convex(std::size_t first) {
-  for (Cell& cell : cells) renumber_pieces(cell, RecordKind::convex, first);
+void CellStore::settle_pieces(std::size_t first) {
+  for (Cell& cell : cells) {
+    move_pieces(cell, first, [&](std::uint32_t index) {
+      return pieces[index].values[ConvexRecord::count] < 0 ? RecordKind::notch : RecordKind::convex;
+    });
+  }
 }
 
 void CellStore::rewind(const Mark& mark) {

@@ -59,8 +59,8 @@ struct CellStore {
   /// expression is left out.
   ChildRef add_extended(std::span<const Symbol> expression, std::uint32_t leaf_count);
 
-  /// Has pieces be what their records are, once these stand behind `first` others.
-  void make_pieces_convex(std::size_t first);
+  /// Has pieces be the kind that their records are, once these stand behind `first` others.
+  void settle_pieces(std::size_t first);
 
   /// Adds the cells of another store behind these.
   void append(const CellStore& part);

@@ -29,7 +29,7 @@ CellTree CellTree::build(const CsgTree& tree, const Box3& box, const CellScale& 
   static_cast<CellStore&>(result) = std::move(built.store);
   result.nodes = std::move(built.nodes);
   if (!result.pieces.empty()) {
-    result.make_pieces_convex(result.records.append(result.pieces));
+    result.settle_pieces(result.records.append(result.pieces));
     result.pieces = {};
   }
   result.depth = built.depth;

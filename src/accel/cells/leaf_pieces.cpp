@@ -10,26 +10,29 @@ namespace tenon::cells {
 
 bool LeafPieces::may_have(const CsgTree& tree, const Leaf& leaf) {
   return visit(tree.primitives.lists(), leaf.primitive, [](const auto& primitive) {
-    return requires(const LocalBox& box, std::vector<Plane>& planes) { primitive.planes_within(box, planes); };
+    return requires(const LocalBox& box, std::vector<Plane>& planes) {
+      primitive.planes_within(box, planes);
+    };
   });
 }
 
 bool LeafPieces::find(LeafId id, const Box3& box) {
   const Leaf& leaf = tree_[id];
-  const bool is_found = visit(tree_.primitives.lists(), leaf.primitive, [&](const auto& primitive) {
+  const PlanarPart part = visit(tree_.primitives.lists(), leaf.primitive, [&](const auto& primitive) {
     if constexpr (requires { primitive.planes_within(leaf.placement.to_local(box), planes_); }) {
       return primitive.planes_within(leaf.placement.to_local(box), planes_);
     } else {
-      return false;
+      return PlanarPart::unknown;
     }
   });
-  if (!is_found) return false;
+  if (part == PlanarPart::unknown) return false;
   // What spans() computes of a plane rounds terms no larger than the place on the ray, which the record accounts for,
   // and the solid's own coordinates.
   const Box3 around = local_bounds(tree_.primitives, leaf.primitive);
   const Vec3 extent = max(abs(around.lower), abs(around.upper));
   PlanesRecorder record(leaf, scale_, center_);
   for (const Plane& plane : planes_) record.add(plane, gamma(16) * dot(abs(plane.normal), extent));
+  if (part == PlanarPart::above_any) record.invert();
   box_ = box;
   values_ = record.values();
   return record.least_slope() <= PlanesRecorder::most_slope;

@@ -7,8 +7,8 @@
 
 namespace tenon::cells {
 
-/// What leaves of costly kinds come to within small boxes: where few faces of one go through, it is what lies below a few
-/// planes, as a convex solid does (planes_within() of the primitive).
+/// What leaves of costly kinds come to within small boxes: where few faces of one go through, it is what lies below a
+/// few planes, as a convex solid does, or all but that (planes_within() of the primitive).
 class LeafPieces {
  public:
   /// @param center  what the records' places are relative to

@@ -15,7 +15,8 @@ namespace tenon::cells {
 /// there. So it does where an `instance` stands among other leaves; one that has a cell to itself is followed through
 /// the cells of its own.
 ///
-/// A `piece` is what is left of a leaf in one cell (LeafPieces). Once all cells are built, its record is a convex one.
+/// A `piece` is what a leaf comes to in one cell (LeafPieces): a convex solid, or all but one, a `notch`. Which of
+/// them, its record tells once all cells are built.
 enum class RecordKind : std::uint8_t {
   general,
   ball,
@@ -25,6 +26,7 @@ enum class RecordKind : std::uint8_t {
   frustum,
   convex,
   torus,
+  notch,
   instance,
   piece
 };
@@ -82,7 +84,8 @@ struct FrustumRecord {
   static constexpr std::size_t map = 0, center = 9, least = 12, profile = 13, size = profile + ProfileRecord::size;
 };
 
-/// Planes n·p <= d, the normals of length 1.
+/// Planes n·p <= d, the normals of length 1. Of a notch, whose planes bound what is not of the leaf, `count` is
+/// negative.
 struct ConvexRecord {
   static constexpr std::size_t count = 0, least = 1, planes = 2, plane_size = 4;
 };

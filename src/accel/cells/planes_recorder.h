@@ -30,6 +30,9 @@ class PlanesRecorder {
     values_[ConvexRecord::count] += 1;
   }
 
+  /// Makes it the record of a notch.
+  void invert() { values_[ConvexRecord::count] *= -1; }
+
   double least_slope() const { return values_[ConvexRecord::least]; }
   /// Where the numbers of a ConvexRecord stand.
   const std::vector<double>& values() const { return values_; }

@@ -225,7 +225,7 @@ HWY_INLINE Stretch<D> ConvexStretch(D d, const SceneRays<D>& ray, const SharedRe
   Stretch<D> s = WholeStretch(d);
   const auto zero = hn::Zero(d);
   std::size_t plane = ConvexRecord::planes;
-  for (auto left = static_cast<std::size_t>(r.values[ConvexRecord::count]); left > 0; --left) {
+  for (auto left = static_cast<std::size_t>(std::fabs(r.values[ConvexRecord::count])); left > 0; --left) {
     const auto n = Load3(d, r, plane);
     const auto slope = FusedDot(n, ray.direction);
     const auto distance = hn::Sub(r[plane + 3], FusedDot(n, ray.origin));
@@ -238,6 +238,28 @@ HWY_INLINE Stretch<D> ConvexStretch(D d, const SceneRays<D>& ray, const SharedRe
     plane += ConvexRecord::plane_size;
   }
   DoubtShort(d, ray, s);
+  return s;
+}
+
+/// All but a convex solid: of the two parts of a line that is met by that the one between two places. Where the solid's
+/// ends are both there, or may be, neither is certain.
+template <class D>
+HWY_INLINE Stretch<D> NotchStretch(D d, const SceneRays<D>& ray, const SharedRecord<D>& r, double reach,
+                                   hn::Vec<D> t_in, hn::Vec<D> t_out) {
+  Stretch<D> s = ConvexStretch(d, ray, r, reach);
+  const auto infinity = hn::Set(d, std::numeric_limits<double>::infinity());
+  const auto least = ShortestStretch(d, ray);
+  const auto meets_before = hn::Gt(s.enter, t_in), meets_after = hn::Lt(s.leave, t_out);
+  const auto at_end =
+      hn::Or(hn::Le(hn::Abs(hn::Sub(s.enter, t_in)), least), hn::Le(hn::Abs(hn::Sub(s.leave, t_out)), least));
+  s.unsure = hn::Or(s.unsure, hn::And(s.hit, hn::Or(hn::And(meets_before, meets_after), at_end)));
+  const auto after = hn::And(s.hit, hn::AndNot(meets_before, meets_after));
+  const auto before = hn::And(s.hit, meets_before);
+  const auto enter = hn::IfThenElse(after, s.leave, hn::Neg(infinity));
+  const auto leave = hn::IfThenElse(before, s.enter, infinity);
+  s.hit = hn::Or(hn::Not(s.hit), hn::Or(before, after));
+  s.enter = enter;
+  s.leave = leave;
   return s;
 }
 
@@ -262,6 +284,9 @@ HWY_INLINE Stretch<D> FindStretch(D d, const SceneRays<D>& ray, RecordKind kind,
     case RecordKind::convex:
       // Each has planes of its own number.
       if constexpr (std::is_same_v<Record, SharedRecord<D>>) return ConvexStretch(d, ray, r, reach);
+      break;
+    case RecordKind::notch:
+      if constexpr (std::is_same_v<Record, SharedRecord<D>>) return NotchStretch(d, ray, r, reach, t_in, t_out);
       break;
     case RecordKind::torus:
       return TorusStretch(d, ray, r, t_in, t_out, lanes);

@@ -52,7 +52,7 @@ class StreamTracer {
   static constexpr std::size_t double_lanes = RayBatch::double_lanes;
   // Rays under way. By trial on the bench; it decides nothing but how long they take.
   static constexpr std::size_t most_slots = 32;
-  static constexpr std::uint32_t kinds = static_cast<std::uint32_t>(RecordKind::torus) + 1;
+  static constexpr std::uint32_t kinds = static_cast<std::uint32_t>(RecordKind::notch) + 1;
   static constexpr ChildRef end_of_stack{~std::uint32_t{0}};
 
   // A ray under way, and where it is: all that opening a node needs, in one line of the cache.
@@ -207,7 +207,8 @@ class StreamTracer {
       case RecordKind::torus:
         return MeetListed<RecordKind::torus>();
       case RecordKind::convex:
-        return MeetOneByOne();
+      case RecordKind::notch:
+        return MeetOneByOne(kind);
       case RecordKind::general:
       case RecordKind::instance:
       case RecordKind::piece:
@@ -238,13 +239,13 @@ class StreamTracer {
     }
   }
 
-  HWY_NOINLINE void MeetOneByOne() {
+  HWY_NOINLINE void MeetOneByOne(RecordKind kind) {
     const One one;
-    const LeafList& list = leaves_[static_cast<std::size_t>(RecordKind::convex)];
+    const LeafList& list = leaves_[static_cast<std::size_t>(kind)];
     for (std::size_t at = 0; at < list.count; ++at) {
       const std::size_t lane = list.lane[at];
       const Stretch<One> s =
-          FindStretch(one, rays_.At(one, &ray_[lane]), RecordKind::convex, SharedRecord<One>{list.record[at]},
+          FindStretch(one, rays_.At(one, &ray_[lane]), kind, SharedRecord<One>{list.record[at]},
                       cells_.records.least_slope, cells_.scale.reach, t_in_[lane], t_out_[lane], true);
       Keep(one, list, at, 1, s);
     }

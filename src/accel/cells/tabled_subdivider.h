@@ -16,7 +16,9 @@ namespace tenon::cells {
 class TabledSubdivider {
  public:
   explicit TabledSubdivider(const SubdivisionInput& input)
-      : input_(input), expression_(input.ranks), search_(input.regions, input.scale.growth, input.quality.beside),
+      : input_(input),
+        expression_(input.ranks),
+        search_(input.regions, input.scale.growth, input.quality.beside),
         pieces_(input.tree, input.scale, input.center) {}
 
   /// @param most_cells  when `result` holds more, nothing is split any further
@@ -28,8 +30,8 @@ class TabledSubdivider {
   struct Part {
     Box3 box;
     FoldedTable rest;
-    Box3 tight;       // around the boundary
-    double cost = 0;  // as one cell, times the area of `tight`
+    Box3 tight;                       // around the boundary
+    double cost = 0;                  // as one cell, times the area of `tight`
     bool may_come_to_pieces = false;  // some leaf is of a kind that has them, but not here
     int depth = 0;
     int unpaid = 0;  // splits in a row, on the way here, that pay only if others do that follow
