@@ -322,6 +322,8 @@ LeafRecords LeafRecords::of(const CsgTree& tree, const CellScale& scale, const V
   records.of_leaf.resize(tree.leaves.size());
   Recorder recorder(tree, scale, center, records);
   for (const LeafId leaf : spatial_order(tree, scale.reach)) records.of_leaf[leaf.get()] = recorder.record(tree[leaf]);
+  // The first line is asked for where a leaf has no record, but not read.
+  if (records.lines.empty()) records.lines.emplace_back();
   return records;
 }
 

@@ -178,14 +178,15 @@ class SingleTracer {
 
   HWY_INLINE void Walk(const BoxRay& ray, CellAnswer& answer, TraversalCounters& counters) {
     NodeStack stack;
-    visited_ = tests_ = 0;
+    std::uint64_t visited = 0;
+    tests_ = 0;
     counters_ = &counters;
     NodeStack::Visit visit{ChildRef::node(0), 0, 0};
     for (;;) {
       if (!visit.child.is_cell()) {
         if (stack.OpenNearest(cells_.nodes[visit.child.index()], ray, visit)) continue;
       } else {
-        ++visited_;
+        ++visited;
         const Cell& cell = cells_.cells[visit.child.index()];
         answer.cell = visit.child.index();
         const Outcome outcome = cell.leaf_count == 1 ? MeetLeaf(cell, visit.t_in, visit.t_out, answer)
@@ -196,7 +197,7 @@ class SingleTracer {
       if (stack.empty()) break;
       visit = stack.Pop();
     }
-    counters.cells_visited += visited_;
+    counters.cells_visited += visited;
     counters.primitive_tests += tests_ + exact_.TakeTests();
   }
 
@@ -204,7 +205,8 @@ class SingleTracer {
   bool WalkOn(const BoxRay& ray, TellBoundary tell, TraversalCounters& counters) {
     NodeStack stack;
     stack.Open(cells_.nodes.front(), ray);
-    visited_ = tests_ = 0;
+    std::uint64_t visited = 0;
+    tests_ = 0;
     counters_ = &counters;
     passed_ = -std::numeric_limits<double>::infinity();
     resolved_ = false;
@@ -215,14 +217,14 @@ class SingleTracer {
         stack.Open(cells_.nodes[child.index()], ray);
         continue;
       }
-      ++visited_;
+      ++visited;
       CellAnswer answer;
       while ((outcome = MeetNext(child.index(), t_in, t_out, answer)) == Outcome::met) {
         if (answer.kind == CellAnswer::Kind::nothing || !tell(answer)) break;
         passed_ = answer.t;
       }
     }
-    counters.cells_visited += visited_;
+    counters.cells_visited += visited;
     counters.primitive_tests += tests_ + exact_.TakeTests();
     return outcome != Outcome::unsure;
   }
@@ -439,7 +441,7 @@ class SingleTracer {
   double passed_;  // the boundary that was passed last
   bool resolved_;  // the classifier found it
   SceneRays<One> ray_;
-  std::uint64_t visited_, tests_;
+  std::uint64_t tests_;
   TraversalCounters* counters_;  // of the ray that is followed
 };
 
