@@ -67,12 +67,14 @@ TEST(CellsInstances, ThatTouchAndOverlap) {
   expect_right(b.instanced_tree(b.intersect({row, b.translate({4, 1.5, 0.5}, b.sphere(2.5))})), 300);
 }
 
-// So far from one another that what the scene takes for one place is large against a part; and far from the origin.
+// So far from one another that what the scene takes for one place is large against a part, and its walls are no
+// thicker.
 TEST(CellsInstances, ThatAreSmallInTheirScene) {
   for (const double step : {60.0, 3000.0}) {
     SCOPED_TRACE(step);
     SceneBuilder b;
-    const SceneNodeId part = bracket(b);
+    const SceneNodeId shell = b.subtract({b.sphere(0.6), b.sphere(0.6 - 1e-5)});
+    const SceneNodeId part = b.unite({bracket(b), b.translate({0.5, -1, 0.5}, shell)});
     std::vector<SceneNodeId> parts;
     for (int i = 0; i < 16; ++i) {
       parts.push_back(b.translate({step * (i % 4), step * (i / 4), 0}, b.rotate({7.0 * i, 0, 5.0 * i}, part)));
