@@ -125,6 +125,8 @@ class InstanceCell {
     const double from = std::max(leaf.last + 0.5 * near(), tracer_.asked_.begin);
     const Outcome outcome = leaf.instance->Next(from, never, Wanted::boundary, leaf.crossing, *tracer_.counters_);
     if (outcome == Outcome::unsure) return false;
+    // Not the last one again.
+    if (outcome == Outcome::met && !(leaf.crossing.t > leaf.last)) return false;
     leaf.next = outcome == Outcome::met ? leaf.crossing.t : never;
     leaf.inside = outcome == Outcome::met && leaf.crossing.before != 0;
     return true;
