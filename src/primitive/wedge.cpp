@@ -31,32 +31,29 @@ class WedgeSearch {
     }
     lower_ = {box.bounds.lower.x, box.bounds.lower.y};
     upper_ = {box.bounds.upper.x, box.bounds.upper.y};
-    // Well above what the arithmetic here rounds, and as far below what two crossings are told apart by (2^-27 of the
-    // scene, in which the outline lies).
+    // Well above what the arithmetic here rounds: some twenty roundings of products of coordinates. Who uses the planes
+    // lets no more than 2^39 times this be an error of place (PlanesRecorder: a plane's own error is 2^-49 of the
+    // coordinates, and at most 2^-10 of what crossings are told apart by), so it is 2^-5 of that at most.
     const Vec2 reach = max(edges.reach(), max(abs(lower_), abs(upper_)));
     slip_ = 0x1p-44 * length(reach);
   }
 
-  bool run() {
+  std::optional<Wedge> find() {
     for (std::size_t i = 0; i < count_; ++i) {
-      if (!(walls_[i].length > 0) || (count_ > 1 && !find_side(walls_[i]))) return false;
+      if (!(walls_[i].length > 0) || (count_ > 1 && !find_side(walls_[i]))) return std::nullopt;
     }
-    if (count_ == 1) walls_[0].side = contains_clear_point() == (walls_[0].distance(clear_point()) > 0) ? 1 : -1;
-    if (!(clearance(clear_point()) > slip_)) return false;
+    const Vec2 place = clear_point();
+    if (!(clearance(place) > slip_)) return std::nullopt;
+    const bool is_inside = edges_.contains(place);
+    if (count_ == 1) walls_[0].side = is_inside == (walls_[0].distance(place) > 0) ? 1 : -1;
+    Wedge wedge;
+    wedge.is_solid = is_inside == is_within(place);
     for (std::size_t i = 0; i < count_; ++i) {
-      if (!covers_its_line(i)) return false;
-    }
-    return true;
-  }
-
-  Wedge wedge() const {
-    Wedge result;
-    for (std::size_t i = 0; i < count_; ++i) {
+      if (!covers_its_line(i)) return std::nullopt;
       const Vec2 outward = -walls_[i].side * walls_[i].right;
-      result.sides[i] = {outward, dot(outward, walls_[i].from)};
+      wedge.sides[i] = {outward, dot(outward, walls_[i].from)};
     }
-    result.is_solid = contains_clear_point() == is_within(clear_point());
-    return result;
+    return wedge;
   }
 
  private:
@@ -105,10 +102,13 @@ class WedgeSearch {
   // Of a few points of the box, the one that is farthest from all lines.
   Vec2 clear_point() const {
     Vec2 best{box_.center.x, box_.center.y};
+    double most = clearance(best);
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 halfway = 0.5 * (box_.center + box_.corner(corner));
       const Vec2 p{halfway.x, halfway.y};
-      if (clearance(p) > clearance(best)) best = p;
+      if (clearance(p) <= most) continue;
+      most = clearance(p);
+      best = p;
     }
     return best;
   }
@@ -117,7 +117,6 @@ class WedgeSearch {
     for (std::size_t i = 0; i < count_; ++i) least = std::min(least, std::fabs(walls_[i].distance(p)));
     return least;
   }
-  bool contains_clear_point() const { return edges_.contains(clear_point()); }
   bool is_within(const Vec2& p) const {
     return std::all_of(walls_.begin(), walls_.begin() + static_cast<std::ptrdiff_t>(count_),
                        [&](const Wall& wall) { return wall.side * wall.distance(p) > 0; });
@@ -135,9 +134,7 @@ class WedgeSearch {
 
 std::optional<Wedge> find_wedge(const OutlineEdges& edges, std::span<const std::uint32_t> walls, const LocalBox& box) {
   assert(!walls.empty() && walls.size() <= 4);
-  WedgeSearch search(edges, walls, box);
-  if (!search.run()) return std::nullopt;
-  return search.wedge();
+  return WedgeSearch(edges, walls, box).find();
 }
 
 }  // namespace tenon

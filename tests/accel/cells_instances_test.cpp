@@ -129,6 +129,21 @@ TEST(CellsInstances, ThatAreMadeOfInstances) {
   expect_right(tree, 300);
 }
 
+// A part of which its tools leave nothing, beside one of which they leave something.
+TEST(CellsInstances, OfWhichNothingIsLeft) {
+  SceneBuilder b;
+  const SceneNodeId part = bracket(b);
+  const SceneNodeId gone = b.subtract({bracket(b), b.translate({-1, -1, -1}, b.cube({5, 5, 5})), b.sphere(0.5)});
+  std::vector<SceneNodeId> parts;
+  for (int i = 0; i < 9; ++i) {
+    parts.push_back(b.translate({3.0 * (i % 3), 3.0 * (i / 3), 0}, gone));
+    parts.push_back(b.translate({3.0 * (i % 3), 3.0 * (i / 3), i % 2 == 0 ? 0.5 : 2.0}, part));
+  }
+  const CsgTree tree = b.instanced_tree(b.unite(parts));
+  ASSERT_EQ(tree.prototypes.size(), 2u);
+  expect_right(tree);
+}
+
 // A ray through a part visits cells of its own, and asks few of its many leaves.
 TEST(CellsInstances, AreFollowedThroughTheirOwnCells) {
   SceneBuilder b;

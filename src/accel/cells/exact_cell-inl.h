@@ -181,9 +181,7 @@ class ExactCell {
   Placement::MappedRay Map(LeafId leaf, int on_face) const {
     const Placement& placement = tree_[leaf].placement;
     if (ray_.local == nullptr) return placement.to_local(ray_.query->ray, tree_.tolerance.distance, on_face);
-    LocalRay from = *ray_.local;
-    from.on_face = on_face;
-    return placement.to_local(from);
+    return placement.to_local(LocalFrom(on_face));
   }
 
   const AskedRay& ray() const { return ray_; }
@@ -350,11 +348,16 @@ class ExactCell {
       spans(tree_.primitives, placed.primitive, placed.placement, ray_.query->ray, tree_.tolerance.distance, on_face,
             known.spans);
     } else {
-      LocalRay from = *ray_.local;
-      from.on_face = on_face;
-      spans(tree_.primitives, placed.primitive, placed.placement, from, known.spans);
+      spans(tree_.primitives, placed.primitive, placed.placement, LocalFrom(on_face), known.spans);
     }
     return known.spans;
+  }
+
+  // The ray in the frame of an instance, as it starts on a face of a leaf, or -1.
+  LocalRay LocalFrom(int on_face) const {
+    LocalRay from = *ray_.local;
+    from.on_face = on_face;
+    return from;
   }
 
   // The start: of a leaf nothing but the face that the ray starts on may lie there.

@@ -33,6 +33,7 @@ class InstanceRay {
   /// @param crossing  its `before` and `after` are of the part: 1 within it. Of Wanted::occlusion nothing but t is told
   /// @return unsure where the part's own cells do not tell
   Outcome Next(double from, double until, Wanted wanted, CellAnswer& crossing, TraversalCounters& counters) const {
+    if (part_.cells.empty()) return Outcome::passed;
     RayQuery query;
     query.ray = {mapped_.ray.origin, mapped_.ray.direction};
     Hit start;

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "accel/cells/planes_recorder.h"
-#include "primitive/dispatch.h"
 #include "primitive/lists.h"
 
 namespace tenon::cells {
@@ -27,9 +26,10 @@ bool LeafPieces::find(LeafId id, const Box3& box) {
   });
   if (part == PlanarPart::unknown) return false;
   // What spans() computes of a plane rounds terms no larger than the place on the ray, which the record accounts for,
-  // and the solid's own coordinates.
-  const Box3 around = local_bounds(tree_.primitives, leaf.primitive);
-  const Vec3 extent = max(abs(around.lower), abs(around.upper));
+  // and the solid's own coordinates, whose images no coordinate of the scene exceeds.
+  const Affine3 map = leaf.placement.local_from_world_linear();
+  const Vec3 most = Vec3{scale_.reach, scale_.reach, scale_.reach} + abs(leaf.placement.world_origin());
+  const Vec3 extent{dot(abs(map.row(0)), most), dot(abs(map.row(1)), most), dot(abs(map.row(2)), most)};
   PlanesRecorder record(leaf, scale_, center_);
   for (const Plane& plane : planes_) record.add(plane, gamma(16) * dot(abs(plane.normal), extent));
   if (part == PlanarPart::above_any) record.invert();

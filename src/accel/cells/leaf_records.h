@@ -11,9 +11,7 @@
 namespace tenon::cells {
 
 /// The kinds of leaf that rays are followed through by plain arithmetic. A ray that meets a cell with a `general` leaf
-/// is resolved by the classifier
-/// there. So it does where an `instance` stands among other leaves; one that has a cell to itself is followed through
-/// the cells of its own.
+/// is resolved by the classifier there; in one with an `instance` it is followed through the cells of that.
 ///
 /// A `piece` is what a leaf comes to in one cell (LeafPieces): a convex solid, or all but one, a `notch`. Which of
 /// them, its record tells once all cells are built.

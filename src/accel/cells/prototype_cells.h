@@ -8,8 +8,8 @@
 
 namespace tenon::cells {
 
-/// The cells of a part that is stored once, in its own frame. Rays come into them through the cells that an instance of
-/// it has to itself.
+/// The cells of a part that is stored once, in its own frame; none where nothing is left of the part. Rays come into
+/// them through the cells of the tree that an instance of it stands in (InstanceRay).
 struct PrototypeCells {
   std::shared_ptr<const Prototype> prototype;
   CellTree cells;
