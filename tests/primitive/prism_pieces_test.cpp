@@ -72,7 +72,8 @@ TEST(PrismPieces, PlanesHoldThePrismWithinTheirBox) {
     const auto& loop = prism.outline.loops[random.below(static_cast<int>(prism.outline.loops.size()))];
     const std::size_t at = static_cast<std::size_t>(random.below(static_cast<int>(loop.size())));
     const OutlineCorner &a = loop[at], &b = loop[(at + 1) % loop.size()];
-    const double s = random.chance(0.3) ? 0 : random.uniform(0, 1);
+    // Beyond its ends, too, where its line goes on and the outline does not.
+    const double s = random.chance(0.3) ? 0 : random.uniform(-0.1, 1.1);
     const Vec3 local{a.x + s * (b.x - a.x), a.y + s * (b.y - a.y), random.uniform(prism.low(), prism.high())};
     const Vec3 middle = map.point(local), half = random.magnitude(-5, -1) * Vec3{1, random.uniform(0.3, 1), 1};
     const Box3 box{middle - half, middle + half};
@@ -100,6 +101,20 @@ TEST(PrismPieces, PlanesHoldThePrismWithinTheirBox) {
   EXPECT_GT(notches, 200);
   EXPECT_GT(inside, points / 4);
   EXPECT_LT(inside, 3 * points / 4);
+}
+
+// A turned box beside the end of an edge, whose line it meets where the outline has turned away.
+TEST(PrismPieces, EdgesThatEndBeforeTheBoxBoundNothing) {
+  Prism prism;
+  prism.outline = {{{{-1, 0, 0}, {0, 0, 0}, {1, -1, 0}, {-1, -1, 0}}}};
+  prism.prepare();
+  const Affine3 turn = Affine3::rotate({0, 0, 45});
+  const auto placement = Placement::create(BoundedAffine3::elementary(turn), {0, 0, 0});
+  const Vec3 middle = turn.point({0.3, 0.3, 0.5}), half{0.28, 0.28, 0.2};
+  const LocalBox box = placement->to_local(Box3{middle - half, middle + half});
+  ASSERT_EQ(prism.classify(box), Region::straddles) << "or nobody would ask";
+  std::vector<Plane> planes;
+  EXPECT_EQ(prism.planes_within(box, planes), PlanarPart::unknown);
 }
 
 // A crossing that is found from its neighbourhood is that of spans(), to the last bit.
