@@ -38,7 +38,20 @@ struct Subject {
   }
 };
 
-void measure_spans(benchmark::State& state, const PrimitiveKind& kind, bool placed) {
+enum class Asked { line, ray_of_world, window };
+
+// A window is where the ray crosses a surface, if anywhere, and hardly more.
+LineWindow window_of(const Subject& subject, const LocalRay& ray, std::mt19937_64& random) {
+  const double edge = max_component(subject.bounds.size());
+  Spans out;
+  spans(subject.store, subject.id, ray, out);
+  const double t =
+      out.empty() || !std::isfinite(out.front().t) ? edge * Subject::in_cube(random).x : out[random() % out.size()].t;
+  return {t - 0x1p-10 * edge, t + 0x1p-10 * edge};
+}
+
+void measure_spans(benchmark::State& state, const PrimitiveKind& kind, Asked asked) {
+  const bool placed = asked == Asked::ray_of_world;
   const Subject subject = Subject::create(kind);
   const Affine3& map = subject.placement.world_from_local();
   std::mt19937_64 random(1);
@@ -48,13 +61,22 @@ void measure_spans(benchmark::State& state, const PrimitiveKind& kind, bool plac
     ray.origin = subject.point(random);
     if (placed) ray = {map.point(ray.origin) - 3 * map.direction(ray.direction), map.direction(ray.direction)};
   }
+  std::vector<LineWindow> windows;
+  if (asked == Asked::window) {
+    for (const Ray& ray : rays) {
+      windows.push_back(window_of(subject, {ray.origin, ray.direction, {}, {}, -1}, random));
+    }
+  }
   Spans out;
   std::size_t i = 0, crossings = 0;
   for ([[maybe_unused]] auto _ : state) {
-    const Ray& ray = rays[i++ % rays.size()];
+    const std::size_t at = i++ % rays.size();
+    const Ray& ray = rays[at];
     out.clear();
     if (placed) {
       spans(subject.store, subject.id, subject.placement, ray, 1e-12, -1, out);
+    } else if (asked == Asked::window) {
+      spans_within(subject.store, subject.id, {{ray.origin, ray.direction, {}, {}, -1}, 0}, windows[at], out);
     } else {
       spans(subject.store, subject.id, {ray.origin, ray.direction, {}, {}, -1}, out);
     }
@@ -83,10 +105,13 @@ void measure_classify(benchmark::State& state, const PrimitiveKind& kind) {
 [[maybe_unused]] const bool registered = [] {
   for (const PrimitiveKind& kind : PrimitiveStore::kinds()) {
     const std::string name(kind.name);
-    benchmark::RegisterBenchmark(("spans/" + name).c_str(),
-                                 [&kind](benchmark::State& s) { measure_spans(s, kind, false); });
-    benchmark::RegisterBenchmark(("placed_spans/" + name).c_str(),
-                                 [&kind](benchmark::State& s) { measure_spans(s, kind, true); });
+    const auto measure = [&](const char* what, Asked asked) {
+      benchmark::RegisterBenchmark((what + name).c_str(),
+                                   [&kind, asked](benchmark::State& s) { measure_spans(s, kind, asked); });
+    };
+    measure("spans/", Asked::line);
+    measure("placed_spans/", Asked::ray_of_world);
+    measure("spans_within/", Asked::window);
     benchmark::RegisterBenchmark(("classify/" + name).c_str(),
                                  [&kind](benchmark::State& s) { measure_classify(s, kind); });
   }

@@ -143,8 +143,7 @@ void Prototype::spans(const LocalRay& ray, Spans& out) const {
   classifier.source().set_ray(ray, start);
   classifier.start(-std::numeric_limits<double>::infinity());
   for (const LeafId leaf : unbounded_) classifier.reveal(leaf);
-  hierarchy_.walk(MeshLine(ray, bounds_), -std::numeric_limits<double>::infinity(),
-                  [&](std::uint32_t i) { classifier.reveal(boxed_[i]); });
+  hierarchy_.walk(MeshLine(ray, bounds_), {}, [&](std::uint32_t i) { classifier.reveal(boxed_[i]); });
   while (const std::optional<Run> run = classifier.settle(std::numeric_limits<double>::infinity())) {
     const bool entering = run->after != medium_outside;
     const std::uint32_t face = number_of({run->surface.leaf, run->surface.face, run->leaf_entering != entering});

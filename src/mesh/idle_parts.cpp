@@ -64,7 +64,7 @@ class Windings {
     if (!find_candidate(line, mesh_, triangle, target) || !target.is_hit || target.sense != -1) return std::nullopt;
     int winding = 0;
     bool is_clear = true;
-    bvh_.walk(line, -Box3::inf, [&](std::uint32_t other) {
+    bvh_.walk(line, {}, [&](std::uint32_t other) {
       MeshCandidate met;
       if (other == triangle || !find_candidate(line, mesh_, other, met) || !met.is_hit) return;
       if (met.hi < target.lo) {

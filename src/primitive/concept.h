@@ -32,9 +32,12 @@ Field(std::string_view, Unit, T P::*, std::string_view) -> Field<P, T>;
 ///   fields()               a tuple of Field
 ///   check()                why the values make no solid; empty when they do
 ///   support(n)             max n·p over the solid; gives bounds under any affine map, and slabs of any normal
-///   spans(ray, out)        appends all crossings, sorted (Crossing, LocalRay); spans_from(), if any, from some t on
+///   spans(ray, out)        appends all crossings, sorted (Crossing, LocalRay)
 ///   classify(box)          conservative: may say straddles, is never wrong
 ///   normal(point, face)    outward, any length but zero
+///   spans_within(ray, window, out)   if any: the same of the crossings whose intervals reach into a window of the line;
+///                          others may be missing, or be made up, as long as inside and outside are right within
+///   window_share           with spans_within(): the share of spans() that it costs in the smallest of windows
 ///   crossing_near(ray, t, near, entering)   if any: the crossing of spans() within `near` of t, if it is certainly the
 ///                          only one within twice that; nothing where that takes the whole of spans() to tell
 ///   planes_within(box, planes)   if any: how some planes, with normals of length 1, make up the part of the solid within

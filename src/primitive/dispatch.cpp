@@ -26,12 +26,13 @@ double weigh(double a, double extent) {
   return a == 0 ? 0 : std::fabs(a) * extent;
 }
 
-// Appends a primitive's crossings along a line: all of them, or those from t = begin on where it can tell them apart.
-void find_spans(const PrimitiveStore& store, PrimitiveId id, const LocalRay& ray, double begin, Spans& out) {
+// Appends a primitive's crossings along a line: all of them, or those in a window where it can tell them apart.
+void find_spans(const PrimitiveStore& store, PrimitiveId id, const LocalRay& ray, const LineWindow& window,
+                Spans& out) {
   if (!is_finite(ray) || ray.direction == Vec3{}) return;
   visit(store.lists(), id, [&](const auto& primitive) {
-    if constexpr (requires { primitive.spans_from(ray, begin, out); }) {
-      primitive.spans_from(ray, begin, out);
+    if constexpr (requires { primitive.spans_within(ray, window, out); }) {
+      primitive.spans_within(ray, window, out);
     } else {
       primitive.spans(ray, out);
     }
@@ -44,30 +45,37 @@ void move(Crossing& c, double shift) {
   c.bound = (c.bound + unit_roundoff * std::fabs(c.t)) * (1 + gamma(3));
 }
 
-// The same from t = begin of the ray that was mapped.
-void find_spans(const PrimitiveStore& store, PrimitiveId id, const Placement::MappedRay& mapped, double begin,
-                Spans& out) {
-  const std::size_t first = out.size();
-  find_spans(store, id, mapped.ray, begin - mapped.shift, out);
-  if (mapped.shift == 0) return;
-  for (std::size_t i = first; i < out.size(); ++i) {
-    if (std::isfinite(out[i].t)) move(out[i], mapped.shift);
-  }
-}
-
 }  // namespace
 
 void spans(const PrimitiveStore& store, PrimitiveId id, const LocalRay& ray, Spans& out) {
-  find_spans(store, id, ray, -Box3::inf, out);
+  find_spans(store, id, ray, {}, out);
 }
 
 void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const Ray& ray, double tolerance,
            int on_face, Spans& out) {
-  find_spans(store, id, placement.to_local(ray, tolerance, on_face), 0, out);
+  spans_within(store, id, placement.to_local(ray, tolerance, on_face), {0, Box3::inf}, out);
 }
 
 void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const LocalRay& ray, Spans& out) {
-  find_spans(store, id, placement.to_local(ray), -Box3::inf, out);
+  spans_within(store, id, placement.to_local(ray), {}, out);
+}
+
+void spans_within(const PrimitiveStore& store, PrimitiveId id, const Placement::MappedRay& mapped,
+                  const LineWindow& window, Spans& out) {
+  const double shift = mapped.shift;
+  const std::size_t first = out.size();
+  find_spans(store, id, mapped.ray, {window.begin - shift, window.end - shift}, out);
+  if (shift == 0) return;
+  for (std::size_t i = first; i < out.size(); ++i) {
+    if (std::isfinite(out[i].t)) move(out[i], shift);
+  }
+}
+
+double window_share(const PrimitiveStore& store, PrimitiveId id) {
+  return visit(store.lists(), id, [](const auto& primitive) {
+    if constexpr (requires { primitive.window_share; }) return primitive.window_share;
+    return 1.0;
+  });
 }
 
 bool has_crossing_near(const PrimitiveStore& store, PrimitiveId id) {

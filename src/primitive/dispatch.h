@@ -16,11 +16,20 @@ namespace tenon {
 /// Appends all crossings of the ray's whole line with the primitive, sorted by t, to `out`. See Crossing and LocalRay.
 void spans(const PrimitiveStore& store, PrimitiveId id, const LocalRay& ray, Spans& out);
 
-/// The same for a ray of the world from t = 0 on: for what lies before, an entrance at -inf may stand (spans_from()).
+/// The same for a ray of the world from t = 0 on (spans_within()).
 void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const Ray& ray, double tolerance,
            int on_face, Spans& out);
 /// The same for a ray of the frame that the placement is in, which may be the local frame of something larger.
 void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const LocalRay& ray, Spans& out);
+
+/// The crossings of spans() whose intervals reach into a window, as spans() has them. Of others some may be missing,
+/// and some that there are not may stand for them, but what is inside of the window and what is outside is right.
+/// @param mapped  the ray in the primitive's frame
+/// @param window  of the ray that was mapped
+void spans_within(const PrimitiveStore& store, PrimitiveId id, const Placement::MappedRay& mapped,
+                  const LineWindow& window, Spans& out);
+/// The share of the cost of spans() that this takes however small the window; 1 where windows make no difference.
+double window_share(const PrimitiveStore& store, PrimitiveId id);
 
 /// Whether crossing_near() may say something.
 bool has_crossing_near(const PrimitiveStore& store, PrimitiveId id);

@@ -19,6 +19,13 @@ struct EdgeCrossing : BoundedRoot {
 struct SearchedPart {
   double begin = 0, end = 0;
   bool outside_before = false, outside_after = false;  ///< known of the line right before and behind it
+
+  bool is_empty() const { return !(begin <= end); }
+  /// What of it lies within a window.
+  SearchedPart within(const LineWindow& window) const {
+    return {std::max(begin, window.begin), std::min(end, window.end), outside_before && begin >= window.begin,
+            outside_after && end <= window.end};
+  }
 };
 
 /// One crossing of the outline's boundary.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "tenon/math/vec3.h"
 
 namespace tenon {
@@ -17,6 +19,14 @@ struct LocalRay {
   /// The face the ray starts on, or -1. The crossing with this face at t = 0 is known to be exactly there: it is
   /// reported with t = 0 and bound 0, and the other roots are those of the polynomial divided by t.
   int on_face = -1;
+};
+
+/// The part of a line that is asked about.
+struct LineWindow {
+  double begin = -std::numeric_limits<double>::infinity();
+  double end = std::numeric_limits<double>::infinity();
+
+  bool meets(double from, double to) const { return from <= end && to >= begin; }
 };
 
 }  // namespace tenon

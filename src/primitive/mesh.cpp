@@ -81,16 +81,16 @@ void Mesh::prepare() {
   }
   if (!hull) {
     const auto walk = [&index](const MeshLine& line, FunctionRef<void(std::uint32_t)> visit) {
-      index->walk(line, -Box3::inf, visit);
+      index->walk(line, {}, visit);
     };
     index->clear = ClearCells(*mesh, index->bounds, walk);
   }
   index_ = std::move(index);
 }
 
-void Mesh::Index::walk(const MeshLine& line, double begin, FunctionRef<void(std::uint32_t)> visit) const {
+void Mesh::Index::walk(const MeshLine& line, const LineWindow& window, FunctionRef<void(std::uint32_t)> visit) const {
   if (const auto* bvh = std::get_if<MeshBvh>(&structure)) {
-    bvh->walk(line, begin, visit);
+    bvh->walk(line, window, visit);
   } else {
     std::get<MeshKdTree>(structure).walk(line, visit);
   }

@@ -25,6 +25,7 @@ class Mesh {
   static constexpr std::string_view doc = "The solid inside a closed mesh of triangles, or the surface of an open one.";
   static constexpr bool bounded = true;
   static constexpr double relative_cost = 12;
+  static constexpr double window_share = 0.4;
   static constexpr auto fields() {
     return std::tuple{Field{"mesh", Unit::none, &Mesh::mesh, "vertices and triangles"},
                       Field{"hull", Unit::none, &Mesh::hull, "the surface alone, which has no inside"}};
@@ -37,10 +38,10 @@ class Mesh {
 
   /// Every crossing of the line with the solid, whatever it grazes: which triangles the line meets is decided exactly
   /// (edge_sign), so each edge and each vertex is crossed once or not at all. Faces: the triangles, by index.
-  void spans(const LocalRay& ray, Spans& out) const { spans_from(ray, -Box3::inf, out); }
-  /// The same, but for crossings before `begin`: an entrance at -inf may stand for all of them where the line is inside
-  /// by then.
-  void spans_from(const LocalRay& ray, double begin, Spans& out) const;
+  void spans(const LocalRay& ray, Spans& out) const { spans_within(ray, {}, out); }
+  /// The same, but for crossings beyond the window: an entrance at -inf, or an exit at +inf, may stand for all of them
+  /// where the line is inside there.
+  void spans_within(const LocalRay& ray, const LineWindow& window, Spans& out) const;
   Region classify(const LocalBox& box) const;
   /// Between the corners' normals where the mesh has them.
   std::uint32_t face_count() const { return static_cast<std::uint32_t>(mesh->triangles.size()); }
@@ -53,7 +54,7 @@ class Mesh {
     Box3 bounds;
     ClearCells clear;
 
-    void walk(const MeshLine& line, double begin, FunctionRef<void(std::uint32_t)> visit) const;
+    void walk(const MeshLine& line, const LineWindow& window, FunctionRef<void(std::uint32_t)> visit) const;
   };
   static SharedMesh unit_tetrahedron();
   Vec3 flat_normal(std::uint32_t face) const;

@@ -26,8 +26,9 @@ class MeshBvh {
 
   /// Calls visit(triangle) for each triangle that the line may meet, with all that it may be wrong by, and for some
   /// whose box it may meet.
-  /// @param begin  those whose box the line leaves before this t may be left out; |t| is at most line.farthest, or -inf
-  void walk(const MeshLine& line, double begin, FunctionRef<void(std::uint32_t)> visit) const;
+  /// @param window  those whose box the line meets beside it alone may be left out; |t| is at most line.farthest, or
+  ///                infinite
+  void walk(const MeshLine& line, const LineWindow& window, FunctionRef<void(std::uint32_t)> visit) const;
 
   /// Calls visit(triangle), which returns whether to go on, for each triangle whose leaf meets this box.
   /// @return false when a visit ended the walk

@@ -26,7 +26,7 @@ struct FloatLine {
   bool is_beside = false;  // it misses everything
   bool forward[2];
 
-  FloatLine(const MeshLine& line, double begin, const MeshBvh::Frame& frame)
+  FloatLine(const MeshLine& line, const LineWindow& window, const MeshBvh::Frame& frame)
       : along(static_cast<std::size_t>(line.along)) {
     constexpr double u = 0x1p-24, unknown = 0x1p60, most = 0x1p20;
     // A mesh lies within 1 of the middle: at heights up to 1.25 no line meets it that passes at 3, if it is known to a
@@ -36,10 +36,11 @@ struct FloatLine {
     const double up = grown[line.along] + 4 * u;
     const auto limited = [](double value) { return static_cast<float>(value <= most ? value : unknown); };
     growth_along = limited(up);
-    const double height = origin[line.along] + frame.scale * begin * line.direction[line.along];
-    const bool rises = line.direction[line.along] > 0, is_known = std::fabs(height) <= most;
-    lowest = static_cast<float>(is_known && rises ? height - up : -unknown);
-    highest = static_cast<float>(is_known && !rises ? height + up : unknown);
+    const bool rises = line.direction[line.along] > 0;
+    const auto height = [&](double t) { return origin[line.along] + frame.scale * t * line.direction[line.along]; };
+    const double low = height(rises ? window.begin : window.end), high = height(rises ? window.end : window.begin);
+    lowest = static_cast<float>(std::fabs(low) <= most ? low - up : -unknown);
+    highest = static_cast<float>(std::fabs(high) <= most ? high + up : unknown);
     for (std::size_t i = 0; i < 2; ++i) {
       const int axis = line.across[i];
       across[i] = static_cast<std::size_t>(axis);
@@ -178,9 +179,9 @@ namespace tenon {
 
 HWY_EXPORT(Walk);
 
-void MeshBvh::walk(const MeshLine& line, double begin, FunctionRef<void(std::uint32_t)> visit) const {
+void MeshBvh::walk(const MeshLine& line, const LineWindow& window, FunctionRef<void(std::uint32_t)> visit) const {
   if (nodes_.empty()) return;
-  const FloatLine float_line(line, begin, frame_);
+  const FloatLine float_line(line, window, frame_);
   if (!float_line.is_beside) HWY_DYNAMIC_DISPATCH(Walk)(*this, float_line, visit);
 }
 

@@ -114,13 +114,13 @@ void ClearCells::wind(const TriangleMesh& mesh, Walk walk) {
   }
 }
 
-std::optional<ClearCells::Place> ClearCells::find_before(const MeshLine& line, double t) const {
+std::optional<ClearCells::Place> ClearCells::find(const MeshLine& line, double t, double step) const {
   // Triangles are a margin away from a clear cell. Half of it is left outside of the bounds, and of that the line and
   // its rounding may take half.
   if (windings_.empty() || !(max_component(line.growth) <= 0.25 * margin_) || !(std::fabs(t) <= line.farthest)) {
     return std::nullopt;
   }
-  for (int step = 0; step < most_steps; ++step, t -= 0.5 * edge_) {
+  for (int i = 0; i < most_steps; ++i, t += step) {
     const Vec3 p = line.origin + t * line.direction;
     if (!beside_.contains(p)) return Place{t, 0};
     const std::int8_t winding = windings_[place_of({index_of(p.x, 0), index_of(p.y, 1), index_of(p.z, 2)})];

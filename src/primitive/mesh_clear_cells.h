@@ -29,7 +29,9 @@ class ClearCells {
   /// A place on the line before t, or at it, that lies in a clear cell or outside of the mesh. No triangle's box
   /// reaches there, whatever the line is wrong by: so what the line meets of one lies before the place or behind it.
   /// @return nothing where none is near
-  std::optional<Place> find_before(const MeshLine& line, double t) const;
+  std::optional<Place> find_before(const MeshLine& line, double t) const { return find(line, t, -0.5 * edge_); }
+  /// One behind t, or at it.
+  std::optional<Place> find_behind(const MeshLine& line, double t) const { return find(line, t, 0.5 * edge_); }
 
   std::size_t bytes() const { return windings_.size(); }
 
@@ -43,6 +45,7 @@ class ClearCells {
     const auto place = [](int i) { return static_cast<std::size_t>(i); };
     return (place(cell[2]) * place(counts_[1]) + place(cell[1])) * place(counts_[0]) + place(cell[0]);
   }
+  std::optional<Place> find(const MeshLine& line, double t, double step) const;
   bool mark(const TriangleMesh& mesh);
   void wind(const TriangleMesh& mesh, Walk walk);
 

@@ -32,11 +32,12 @@ bool find_candidate(const MeshLine& line, const TriangleMesh& mesh, std::uint32_
 /// Where the line as computed crosses none of them but the exact line may enter and leave, both ends of such a chord
 /// are reported at one place (emit_chord says why).
 ///
-/// @param winding  how often the mesh winds around the line before the first candidate; where it does, an entrance at
-///                 -inf comes first
-/// @param on_face  the triangle the ray starts on, or -1
-void emit_solid(const TriangleMesh& mesh, std::vector<MeshCandidate>& candidates, double scale, int winding,
-                int on_face, Spans& out);
+/// @param winding_before  how often the mesh winds around the line before the first candidate; where it does, an
+///                        entrance at -inf comes first
+/// @param winding_behind  and behind the last one; where it does, an exit at +inf comes last
+/// @param on_face         the triangle the ray starts on, or -1
+void emit_solid(const TriangleMesh& mesh, std::vector<MeshCandidate>& candidates, double scale, int winding_before,
+                int winding_behind, int on_face, Spans& out);
 
 /// Reports the crossings of a surface without inside.
 void emit_surface(std::vector<MeshCandidate>& candidates, double scale, int on_face, Spans& out);

@@ -131,8 +131,12 @@ double bound_of(double t, double lo, double hi) {
 // Walks along the line, counting how often the mesh winds around the place.
 class SolidSweep {
  public:
-  SolidSweep(std::vector<Boundary>& boundaries, double scale, int winding, Spans& out)
-      : boundaries_(boundaries), scale_(scale), out_(out), winding_(winding), starts_inside_(winding > 0) {
+  SolidSweep(std::vector<Boundary>& boundaries, double scale, int winding_before, int winding_behind, Spans& out)
+      : boundaries_(boundaries),
+        scale_(scale),
+        out_(out),
+        winding_(winding_before),
+        has_odd_count_((winding_before > 0) != (winding_behind > 0)) {
     std::sort(boundaries_.begin(), boundaries_.end(),
               [](const Boundary& a, const Boundary& b) { return a.t != b.t ? a.t < b.t : a.triangle < b.triangle; });
   }
@@ -154,7 +158,7 @@ class SolidSweep {
       if (before == 1 && winding_ == 0) leave(b);
     }
     // Senses are exact, so as many enter as leave; numbers at the ends of the range are all that can break it.
-    if (!out_.empty() && (out_.size() % 2 != 0) != starts_inside_) out_.pop_back();
+    if (!out_.empty() && (out_.size() % 2 != 0) != has_odd_count_) out_.pop_back();
   }
 
  private:
@@ -213,7 +217,7 @@ class SolidSweep {
   double scale_;
   Spans& out_;
   int winding_;
-  bool starts_inside_;
+  bool has_odd_count_;  // of crossings
   double last_t_ = 0;
   std::size_t entrance_ = 0;
   double entrance_lo_ = -Box3::inf, entrance_hi_ = 0;  // of where the line was last found to enter, if anywhere
@@ -224,24 +228,25 @@ bool all_finite(const Spans& out) {
                      [](const Crossing& c) { return std::isfinite(c.t) && !std::isnan(c.bound); });
 }
 
-// Whether the line meets a candidate behind a place that the boxes of all triangles are away from. If its interval does
-// not tell, its box does, which the line passes on one side of the place.
-bool lies_behind(const MeshLine& line, const TriangleMesh& mesh, double place, MeshCandidate& candidate) {
-  if (candidate.lo > place) return true;
-  if (candidate.hi < place) return false;
+// Whether the line meets a candidate within a window, at whose ends the boxes of all triangles are away. If its
+// interval does not tell, its box does, which the line passes on one side of an end.
+bool lies_within(const MeshLine& line, const TriangleMesh& mesh, const LineWindow& window, MeshCandidate& candidate) {
+  if (candidate.lo > window.begin && candidate.hi < window.end) return true;
+  if (!window.meets(candidate.lo, candidate.hi)) return false;
   const auto [a, b, c] = mesh.corners(candidate.triangle);
   double enter, leave;
   MeshSlabs(line).clip({min(a, min(b, c)), max(a, max(b, c))}, enter, leave);
-  if (leave < place) return false;
-  candidate.lo = std::max(candidate.lo, place);
-  candidate.t = std::max(candidate.t, place);
+  if (leave < window.begin || enter > window.end) return false;
+  candidate.lo = std::max(candidate.lo, window.begin);
+  candidate.hi = std::min(candidate.hi, window.end);
+  candidate.t = std::clamp(candidate.t, window.begin, window.end);
   return true;
 }
 
 }  // namespace
 
-void emit_solid(const TriangleMesh& mesh, std::vector<MeshCandidate>& candidates, double scale, int winding,
-                int on_face, Spans& out) {
+void emit_solid(const TriangleMesh& mesh, std::vector<MeshCandidate>& candidates, double scale, int winding_before,
+                int winding_behind, int on_face, Spans& out) {
   thread_local std::vector<Boundary> boundaries;
   boundaries.clear();
   if (std::all_of(candidates.begin(), candidates.end(), [](const MeshCandidate& c) { return c.is_certain; })) {
@@ -252,11 +257,12 @@ void emit_solid(const TriangleMesh& mesh, std::vector<MeshCandidate>& candidates
   if (on_face >= 0) put_start_at_zero(boundaries, candidates, static_cast<std::uint32_t>(on_face));
   thread_local Spans crossings;
   crossings.clear();
-  SolidSweep(boundaries, scale, winding, crossings).run();
+  SolidSweep(boundaries, scale, winding_before, winding_behind, crossings).run();
   // A ray so far off that its products overflow.
   if (!all_finite(crossings)) return;
-  if (crossings.size() % 2 != 0) out.push_back({-Box3::inf, 0, crossings.front().face, true, false});
+  if (winding_before > 0) out.push_back({-Box3::inf, 0, 0, true, false});
   out.insert(out.end(), crossings.begin(), crossings.end());
+  if (winding_behind > 0) out.push_back({Box3::inf, 0, 0, false, false});
 }
 
 void emit_surface(std::vector<MeshCandidate>& candidates, double scale, int on_face, Spans& out) {
@@ -273,24 +279,27 @@ void emit_surface(std::vector<MeshCandidate>& candidates, double scale, int on_f
   out.insert(out.end(), crossings.begin(), crossings.end());
 }
 
-void Mesh::spans_from(const LocalRay& ray, double begin, Spans& out) const {
+void Mesh::spans_within(const LocalRay& ray, const LineWindow& window, Spans& out) const {
   const MeshLine line(ray, index_->bounds);
-  const auto known = index_->clear.find_before(line, begin / line.scale);
+  const ClearCells::Place nowhere{-Box3::inf, 0}, anywhere{Box3::inf, 0};
+  const auto before = index_->clear.find_before(line, window.begin / line.scale).value_or(nowhere);
+  const auto behind = index_->clear.find_behind(line, window.end / line.scale).value_or(anywhere);
+  const LineWindow part{before.t, behind.t};
   thread_local std::vector<MeshCandidate> candidates;
   candidates.clear();
-  index_->walk(line, known ? known->t : -Box3::inf, [&](std::uint32_t triangle) {
+  index_->walk(line, part, [&](std::uint32_t triangle) {
     MeshCandidate candidate;
     if (!find_candidate(line, *mesh, triangle, candidate)) return;
-    if (!known || lies_behind(line, *mesh, known->t, candidate)) candidates.push_back(candidate);
+    if (lies_within(line, *mesh, part, candidate)) candidates.push_back(candidate);
   });
-  if (candidates.empty()) return;
+  if (candidates.empty() && before.winding <= 0) return;
   // Each once, in an order that does not depend on the structure.
   std::sort(candidates.begin(), candidates.end(),
             [](const MeshCandidate& a, const MeshCandidate& b) { return a.triangle < b.triangle; });
   const auto is_same = [](const MeshCandidate& a, const MeshCandidate& b) { return a.triangle == b.triangle; };
   candidates.erase(std::unique(candidates.begin(), candidates.end(), is_same), candidates.end());
   if (hull) return emit_surface(candidates, line.scale, ray.on_face, out);
-  emit_solid(*mesh, candidates, line.scale, known ? known->winding : 0, ray.on_face, out);
+  emit_solid(*mesh, candidates, line.scale, before.winding, behind.winding, ray.on_face, out);
 }
 
 }  // namespace tenon

@@ -87,15 +87,19 @@ class Prism::Line {
            clip(lower.y * s_ - o_.y - pad_.y, lower.y * s_slope_ - d_.y, begin, end);
   }
 
-  /// Adds where the line may cross an edge.
-  void cross_edge(std::uint32_t index, const OutlineEdge& edge, std::vector<EdgeCrossing>& out) {
-    double begin, end;
-    if (!clip_to_box(edge.lower, edge.upper, begin, end)) return;
-    if (edge.is_arc()) {
-      cross_arc(index, edge, begin, end, out);
-    } else {
-      cross_segment(index, edge, begin, end, out);
-    }
+  /// Finds where the line may cross edges within a window.
+  void cross_edges(const OutlineEdges& edges, const LineWindow& window, std::vector<EdgeCrossing>& out) {
+    out.clear();
+    double begin = 0, end = 0;
+    edges.visit_edges(
+        [&](const Vec2& lower, const Vec2& upper) {
+          return clip_to_box(lower, upper, begin, end) && window.meets(begin, end);
+        },
+        [&](std::uint32_t i) {
+          cross_edge(i, edges.edges()[i], out);
+          return true;
+        });
+    std::erase_if(out, [&](const EdgeCrossing& c) { return !window.meets(c.lo, c.hi); });
   }
 
   /// Whether the line lies in a segment at t, as far as its errors can tell; then inside and outside are both right,
@@ -106,6 +110,15 @@ class Prism::Line {
   }
 
  private:
+  void cross_edge(std::uint32_t index, const OutlineEdge& edge, std::vector<EdgeCrossing>& out) {
+    double begin, end;
+    if (!clip_to_box(edge.lower, edge.upper, begin, end)) return;
+    if (edge.is_arc()) {
+      cross_arc(index, edge, begin, end, out);
+    } else {
+      cross_segment(index, edge, begin, end, out);
+    }
+  }
   // The line relative to a corner.
   struct Relative {
     Vec2 p, d;
@@ -282,7 +295,7 @@ class Prism::Line {
   std::vector<std::pair<double, double>> in_segments_;
 };
 
-void Prism::spans(const LocalRay& ray, Spans& out) const {
+void Prism::spans_within(const LocalRay& ray, const LineWindow& window, Spans& out) const {
   Chord slab;
   if (!clip_slab(ray, 2, low(), high(), bottom, top, slab)) return;
   Line line(*this, ray);
@@ -298,19 +311,15 @@ void Prism::spans(const LocalRay& ray, Spans& out) const {
     return;
   }
 
+  const SearchedPart part = line.part().within(window);
+  if (part.is_empty()) return;
   thread_local std::vector<EdgeCrossing> crossings;
   thread_local std::vector<BoundaryCrossing> boundary;
-  crossings.clear();
-  double begin = 0, end = 0;
-  edges_.visit_edges([&](const Vec2& lower, const Vec2& upper) { return line.clip_to_box(lower, upper, begin, end); },
-                     [&](std::uint32_t i) {
-                       line.cross_edge(i, edges_.edges()[i], crossings);
-                       return true;
-                     });
+  line.cross_edges(edges_, window, crossings);
   const auto is_inside = [&](double t) {
     return line.is_before_tip(t) && (line.lies_in_segment(t) || edges_.contains(line.at(t)));
   };
-  const bool inside = find_boundary_crossings(crossings, line.part(), is_inside, boundary);
+  const bool inside = find_boundary_crossings(crossings, part, is_inside, boundary);
   emit_between_caps(slab, boundary, inside, walls, out);
 }
 
@@ -322,17 +331,7 @@ std::optional<Crossing> Prism::crossing_near(const LocalRay& ray, double t, doub
   // Whatever may be one with a crossing there, if that is known to within `near`.
   const double first = t - 2 * near, last = t + 2 * near;
   thread_local std::vector<EdgeCrossing> crossings;
-  crossings.clear();
-  double begin = 0, end = 0;
-  edges_.visit_edges(
-      [&](const Vec2& lower, const Vec2& upper) {
-        return line.clip_to_box(lower, upper, begin, end) && begin <= last && end >= first;
-      },
-      [&](std::uint32_t i) {
-        line.cross_edge(i, edges_.edges()[i], crossings);
-        return true;
-      });
-  std::erase_if(crossings, [&](const EdgeCrossing& c) { return c.hi < first || c.lo > last; });
+  line.cross_edges(edges_, {first, last}, crossings);
   if (crossings.empty()) return cap_near(slab, t, near, entering);
   const EdgeCrossing& wall = crossings.front();
   const bool is_known = crossings.size() == 1 && wall.sure && !wall.given && wall.lo >= first && wall.hi <= last;

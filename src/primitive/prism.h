@@ -25,6 +25,7 @@ class Prism {
   static constexpr std::string_view doc = "An outline of segments and arcs, swept along z.";
   static constexpr bool bounded = true;
   static constexpr double relative_cost = 7;
+  static constexpr double window_share = 0.15;
   static constexpr auto fields() {
     return std::tuple{
         Field{"outline", Unit::length, &Prism::outline, "closed loops of corners [x, y] or [x, y, bulge]"},
@@ -45,7 +46,8 @@ class Prism {
     const double across = edges_.support({n.x, n.y});
     return std::max(across + n.z * low(), scale * across + n.z * high());
   }
-  void spans(const LocalRay& ray, Spans& out) const;
+  void spans(const LocalRay& ray, Spans& out) const { spans_within(ray, {}, out); }
+  void spans_within(const LocalRay& ray, const LineWindow& window, Spans& out) const;
   std::optional<Crossing> crossing_near(const LocalRay& ray, double t, double near, bool entering) const;
   Region classify(const LocalBox& box) const;
   std::uint32_t face_count() const { return walls + 2 * static_cast<std::uint32_t>(edges_.edges().size()); }

@@ -298,9 +298,11 @@ void find_roots(const F& f, double begin, double end, const ShortList<double, 4>
 
 }  // namespace
 
-void Revolution::spans(const LocalRay& ray, Spans& out) const {
+void Revolution::spans_within(const LocalRay& ray, const LineWindow& window, Spans& out) const {
   Line line(ray, edges_);
   if (!line.find_part(edges_)) return;
+  const SearchedPart part = SearchedPart{line.begin(), line.end(), true, true}.within(window);
+  if (part.is_empty()) return;
   thread_local std::vector<EdgeCrossing> crossings;
   thread_local std::vector<BoundaryCrossing> boundary;
   thread_local std::vector<std::uint32_t> along;
@@ -319,6 +321,7 @@ void Revolution::spans(const LocalRay& ray, Spans& out) const {
     begin -= more;
     end += more;
     if (given) begin = std::min(begin, -more), end = std::max(end, more);
+    if (!window.meets(begin, end)) return true;
 
     const Profile f(line, edge);
     RootCollector collect(line, edge, i, begin, end, crossings);
@@ -344,9 +347,10 @@ void Revolution::spans(const LocalRay& ray, Spans& out) const {
   edges_.visit_edges(
       [&](const Vec2& lower, const Vec2& upper) {
         double begin = line.begin(), end = line.end();
-        return line.clip_to_box(lower, upper, begin, end);
+        return line.clip_to_box(lower, upper, begin, end) && window.meets(begin, end);
       },
       cross_edge);
+  std::erase_if(crossings, [&](const EdgeCrossing& c) { return !window.meets(c.lo, c.hi); });
 
   const auto is_inside = [&](double t) {
     const Vec2 place = line.at(t);
@@ -357,16 +361,18 @@ void Revolution::spans(const LocalRay& ray, Spans& out) const {
              return at >= 0 && at <= dot(edge.chord(), edge.chord());
            });
   };
-  find_boundary_crossings(crossings, {line.begin(), line.end(), true, true}, is_inside, boundary);
+  bool inside = find_boundary_crossings(crossings, part, is_inside, boundary);
   const std::size_t first = out.size();
-  End enter;
+  End enter = Chord().enter;
   for (const BoundaryCrossing& c : boundary) {
     if (c.entering) {
       enter = c.end;
     } else {
       emit_chord({enter, c.end}, out);
     }
+    inside = c.entering;
   }
+  if (inside) emit_chord({enter, Chord().leave}, out);
   put_in_order(first, out);
 }
 

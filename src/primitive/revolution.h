@@ -19,6 +19,7 @@ class Revolution {
   static constexpr std::string_view doc = "An outline of segments and arcs, turned around z.";
   static constexpr bool bounded = true;
   static constexpr double relative_cost = 17;
+  static constexpr double window_share = 0.3;
   static constexpr auto fields() {
     return std::tuple{Field{"outline", Unit::length, &Revolution::outline,
                             "closed loops of corners [distance from z, z] or [distance from z, z, bulge]"}};
@@ -32,7 +33,8 @@ class Revolution {
 
   double support(const Vec3& n) const { return edges_.support({std::sqrt(n.x * n.x + n.y * n.y), n.z}); }
   /// Faces: two an edge (face_of_edge).
-  void spans(const LocalRay& ray, Spans& out) const;
+  void spans(const LocalRay& ray, Spans& out) const { spans_within(ray, {}, out); }
+  void spans_within(const LocalRay& ray, const LineWindow& window, Spans& out) const;
   Region classify(const LocalBox& box) const;
   std::uint32_t face_count() const { return 2 * static_cast<std::uint32_t>(edges_.edges().size()); }
   Vec3 normal(const Vec3& point, std::uint32_t face) const;

@@ -91,9 +91,12 @@ Ball TwistedLine::edge_at(const OutlineEdge& edge, double t) const {
   return edge_function(BallArithmetic(), edge, move_within({t, t}));
 }
 
-void TwistedLine::cross_edges(const OutlineEdges& edges, double begin, double end, std::vector<EdgeCrossing>& out) {
+void TwistedLine::cross_edges(const OutlineEdges& edges, const Interval& whole, const LineWindow& window,
+                              std::vector<EdgeCrossing>& out) {
+  out.clear();
+  window_ = window;
   Interval parts[2];
-  const int count = parts_beside_walls({begin, end}, parts);
+  const int count = parts_beside_walls(whole, parts);
   const bool is_scaled = sweep_.growth_x != 0 || sweep_.growth_y != 0;
   for (int i = 0; i < count; ++i) {
     const double turn = std::fabs(turn_per_t_) * (parts[i].end - parts[i].begin) / half_pi;
@@ -103,8 +106,9 @@ void TwistedLine::cross_edges(const OutlineEdges& edges, double begin, double en
       search<StraightWay>(edges, parts[i], turn, out);
     }
   }
+  std::erase_if(out, [&](const EdgeCrossing& c) { return !window.meets(c.lo, c.hi); });
   // The face the ray starts on is crossed there even where rounding has put the edge aside.
-  if (on_edge_ < 0 || !(begin <= 0 && 0 <= end)) return;
+  if (on_edge_ < 0 || !whole.contains(0) || !window.meets(0, 0)) return;
   const auto index = static_cast<std::uint32_t>(on_edge_);
   const auto is_start = [index](const EdgeCrossing& c) { return c.given && c.edge == index; };
   if (std::any_of(out.begin(), out.end(), is_start)) return;
@@ -201,6 +205,7 @@ bool TwistedLine::EnclosedWay::may_touch(const Vec2& lower, const Vec2& upper) c
 template <class Way>
 void TwistedLine::search(const OutlineEdges& edges, const Interval& interval, double turn,
                          std::vector<EdgeCrossing>& out) {
+  if (!window_.meets(interval.begin, interval.end)) return;
   constexpr double widest = 0.5, narrowest = 0.0625;
   if (turn <= widest) {
     std::optional<Motion<Enclosure>> motion;
@@ -233,6 +238,7 @@ void TwistedLine::search(const OutlineEdges& edges, const Interval& interval, do
 
 void TwistedLine::cross_edge(std::uint32_t index, const OutlineEdge& edge, const Interval& interval, const Enclosure& f,
                              int depth, std::vector<EdgeCrossing>& out) {
+  if (!window_.meets(interval.begin, interval.end)) return;
   if (on_edge_ == static_cast<int>(index) && interval.contains(0)) {
     cross_start(index, edge, interval, f, depth, out);
     return;

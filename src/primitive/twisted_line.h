@@ -29,10 +29,6 @@ class TwistedLine {
  public:
   TwistedLine(const TwistedSweep& sweep, const LocalRay& ray, int on_edge);
 
-  /// Finds the crossings with all edges between two t.
-  void cross_edges(const OutlineEdges& edges, double begin, double end, std::vector<EdgeCrossing>& out);
-
- private:
   struct Interval {
     double begin, end;
 
@@ -40,6 +36,14 @@ class TwistedLine {
     double half_width() const { return 0.5 * (end - begin); }
     bool contains(double t) const { return begin <= t && t <= end; }
   };
+
+  /// Finds the crossings with all edges within a window.
+  /// @param whole  where they may be at all: halved in the same way whatever the window, so that crossings have the
+  ///               same bits
+  void cross_edges(const OutlineEdges& edges, const Interval& whole, const LineWindow& window,
+                   std::vector<EdgeCrossing>& out);
+
+ private:
   template <class Number>
   struct Motion {
     Number ux, uy, s;
@@ -91,6 +95,7 @@ class TwistedLine {
   TwistedSweep sweep_;
   LocalRay ray_;
   int on_edge_;
+  LineWindow window_;
   double turn_per_t_;  // of the plane of the outline, in radians
   int looks_ = 0;
 };

@@ -35,7 +35,7 @@ void TwistedPrism::prepare() {
   clearance_ = nearest * least_scale() * (1 - gamma(8));
 }
 
-void TwistedPrism::spans(const LocalRay& ray, Spans& out) const {
+void TwistedPrism::spans_within(const LocalRay& ray, const LineWindow& window, Spans& out) const {
   Chord slab;
   if (!clip_slab(ray, 2, low(), high(), bottom, top, slab)) return;
   // The part beside the axis, as far as any wall reaches.
@@ -44,19 +44,23 @@ void TwistedPrism::spans(const LocalRay& ray, Spans& out) const {
   for (int axis = 0; axis < 2; ++axis) {
     if (!clip_slab(ray, axis, -reach_, reach_, no_face, no_face, over)) return;
   }
-  SearchedPart part;
-  part.begin = std::max(over.enter.lo, slab.enter.lo);
-  part.end = std::min(over.leave.hi, slab.leave.hi);
-  part.outside_before = over.enter.lo >= slab.enter.lo;
-  part.outside_after = over.leave.hi <= slab.leave.hi;
-  if (!(part.begin <= part.end) || !std::isfinite(part.begin) || !std::isfinite(part.end)) return;
+  SearchedPart whole;
+  whole.begin = std::max(over.enter.lo, slab.enter.lo);
+  whole.end = std::min(over.leave.hi, slab.leave.hi);
+  whole.outside_before = over.enter.lo >= slab.enter.lo;
+  whole.outside_after = over.leave.hi <= slab.leave.hi;
+  if (whole.is_empty() || !std::isfinite(whole.begin) || !std::isfinite(whole.end)) return;
+  const SearchedPart part = whole.within(window);
+  if (part.is_empty()) return;
+  // A cap beyond the window is not where a chord within it ends.
+  if (slab.enter.hi < window.begin) slab.enter = Chord().enter;
+  if (slab.leave.lo > window.end) slab.leave = Chord().leave;
   const int on_edge = ray.on_face < static_cast<int>(walls) ? -1 : (ray.on_face - static_cast<int>(walls)) / 2;
 
   TwistedLine line({low(), 1 / h, twist / 90, scale_x - 1, scale_y - 1, clearance_, reach_}, ray, on_edge);
   thread_local std::vector<EdgeCrossing> crossings;
   thread_local std::vector<BoundaryCrossing> boundary;
-  crossings.clear();
-  line.cross_edges(edges_, part.begin, part.end, crossings);
+  line.cross_edges(edges_, {whole.begin, whole.end}, window, crossings);
   const auto is_inside = [&](double t) {
     Vec2 place;
     return find_place(ray.origin + t * ray.direction, place) && edges_.contains(place);
@@ -80,9 +84,10 @@ void TwistedPrism::drop_chords_beyond_tip(const LocalRay& ray, std::size_t first
     return p.x - error.x > reaches(scale_x) * std::max(1.0, scale_x) * (1 + gamma(8)) ||
            p.y - error.y > reaches(scale_y) * std::max(1.0, scale_y) * (1 + gamma(8));
   };
+  const auto is_known = [](const Crossing& c) { return std::isfinite(c.t); };
   std::size_t kept = first;
   for (std::size_t i = first; i + 1 < out.size(); i += 2) {
-    if (is_beyond(out[i]) && is_beyond(out[i + 1])) continue;
+    if (is_known(out[i]) && is_known(out[i + 1]) && is_beyond(out[i]) && is_beyond(out[i + 1])) continue;
     out[kept++] = out[i];
     out[kept++] = out[i + 1];
   }

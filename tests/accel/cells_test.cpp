@@ -96,6 +96,37 @@ TEST(Cells, FollowPrismsByWhatTheyComeTo) {
   }
 }
 
+// Of some leaves a cell asks for a part of the ray's line alone, and they are cut where that pays.
+TEST(Cells, AskLeavesForPartsOfTheLine) {
+  Outline cross{{{}}};
+  for (int i = 0; i < 12; ++i) {
+    const double r = i % 3 == 0 ? 0.3 : 1, angle = 30.0 * i;
+    cross.loops[0].push_back({r * cos_degrees(angle), r * sin_degrees(angle), i % 3 == 1 ? 0.25 : 0});
+  }
+  const Outline profile{{{{0.2, -1, 0}, {0.9, -0.8, 0.3}, {0.6, 0, -0.2}, {0.9, 0.9, 0}, {0.4, 1, 0}}}};
+  const auto pebble = meshes::star(3, [](const Vec3& v) { return 1 + 0.2 * v.x * v.y; });
+  const std::pair<const char*, std::vector<FieldValue>> leaves[] = {
+      {"twisted_prism", {cross, 2.0, true, 300.0, 1.0, 0.7}},
+      {"revolution", {profile}},
+      {"prism", {cross, 2.0, true, 0.6}},
+      {"mesh", {meshes::share(pebble), false}}};
+  for (const auto& [kind, values] : leaves) {
+    SCOPED_TRACE(kind);
+    for (const bool is_cut : {false, true}) {
+      SceneBuilder b;
+      const SceneNodeId leaf = b.rotate({20, 30, 0}, b.primitive(kind, values));
+      const SceneNodeId tool = b.translate({0.4, 0.2, 0.3}, b.sphere(0.7));
+      const CsgTree tree = b.tree(is_cut ? b.subtract({leaf, tool}) : leaf);
+      expect_same_answers(tree, "cells", 200);
+      expect_streams_say_what_single_rays_say(tree, 2000);
+      const double cells = detail(**build_accelerator("cells", tree), "boundary cells");
+      if (std::string_view(kind) == "twisted_prism") {
+        EXPECT_GT(cells, 20);
+      }
+    }
+  }
+}
+
 // Rays to the tip of a cone graze it there; what they meet on the way is as certain as for their neighbours.
 TEST(Cells, RaysToATipAreLikeTheirNeighbours) {
   SceneBuilder b;

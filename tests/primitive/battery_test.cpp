@@ -81,6 +81,90 @@ TEST_P(Battery, CrossingsAgreeWithTheDefinitionIn113Bits) {
   }
 }
 
+/// The kinds that are asked for part of a line in less time than for all of it.
+class Windows : public EveryKind {
+ public:
+  static auto all() {
+    std::vector<const PrimitiveKind*> kinds;
+    for (const PrimitiveKind& kind : PrimitiveStore::kinds()) {
+      if (has_windows(kind) && !kind.surface) kinds.push_back(&kind);
+    }
+    return testing::ValuesIn(kinds);
+  }
+
+ private:
+  static bool has_windows(const PrimitiveKind& kind) {
+    PrimitiveStore store;
+    std::vector<FieldValue> values;
+    for (const FieldInfo& field : kind.fields) values.push_back(field.fallback);
+    return window_share(store, *store.add(kind, values)) < 1;
+  }
+};
+
+// What is asked in a window alone is what the whole line has there, to the last bit, unless a crossing may lie at an
+// end of the window.
+TEST_P(Windows, ShowWhatTheWholeLineHas) {
+  Random random(seed() + 2);
+  int shown = 0, shortened = 0;
+  for (int n = 0; n < 200'000; n += rays_per_solid) {
+    const RandomSolid solid(kind(), random);
+    for (int i = 0; i < rays_per_solid; ++i) {
+      LocalRay ray = solid.ray(random);
+      Spans whole, some;
+      spans(solid.store, solid.id, ray, whole);
+      if (random.chance(0.3) && !whole.empty()) {
+        const Crossing start = whole[static_cast<std::size_t>(random.below(static_cast<int>(whole.size())))];
+        ray.origin = ray.origin + start.t * ray.direction;
+        const double error = start.bound * max_component(abs(ray.direction)) + 1e-15 * max_component(abs(ray.origin));
+        ray.origin_error = {error, error, error};
+        ray.on_face = static_cast<int>(start.face);
+        whole.clear();
+        spans(solid.store, solid.id, ray, whole);
+      }
+      const double square = dot(ray.direction, ray.direction);
+      const double middle = dot(solid.bounds.center() - ray.origin, ray.direction) / square;
+      const double span = solid.size / std::sqrt(square);
+      const double about = !whole.empty() && random.chance(0.5)
+                               ? whole[static_cast<std::size_t>(random.below(static_cast<int>(whole.size())))].t
+                               : middle + random.uniform(-1, 1) * span;
+      const double size = random.magnitude(-6, 0) * span;
+      LineWindow window{about - random.uniform(0, 1) * size, about + random.uniform(0, 1) * size};
+      if (random.chance(0.1)) window.begin = -Box3::inf;
+      if (random.chance(0.1)) window.end = Box3::inf;
+      const auto is_at_end = [&window](const Crossing& c) {
+        return std::fabs(c.t - window.begin) <= c.bound || std::fabs(c.t - window.end) <= c.bound;
+      };
+      if (std::any_of(whole.begin(), whole.end(), is_at_end)) continue;
+      spans_within(solid.store, solid.id, {ray, 0}, window, some);
+      const auto where = [&] {
+        return " from " + std::to_string(window.begin) + " to " + std::to_string(window.end) + describe(whole) +
+               describe(some) + describe(ray.origin, ray.direction) + describe(solid.values);
+      };
+      ASSERT_FALSE(check_order(some)) << *check_order(some) << where();
+      shortened += some.size() < whole.size() || (!some.empty() && !std::isfinite(some.front().t));
+      const auto starts_inside = [&window](const Spans& list) {
+        return std::count_if(list.begin(), list.end(), [&](const Crossing& c) { return c.t < window.begin; }) % 2 != 0;
+      };
+      ASSERT_EQ(starts_inside(whole), starts_inside(some)) << where();
+      const auto keep_within = [&window](Spans& list) {
+        std::erase_if(list, [&](const Crossing& c) { return !(window.begin < c.t && c.t < window.end); });
+      };
+      keep_within(whole);
+      keep_within(some);
+      ASSERT_EQ(whole.size(), some.size()) << where();
+      for (std::size_t k = 0; k < whole.size(); ++k) {
+        ASSERT_EQ(whole[k].entering, some[k].entering) << where();
+        ASSERT_EQ(whole[k].face, some[k].face) << where();
+        ASSERT_EQ(whole[k].t, some[k].t) << where();
+        ASSERT_EQ(whole[k].bound, some[k].bound) << where();
+        ++shown;
+      }
+    }
+  }
+  EXPECT_GT(shown, 20'000);
+  EXPECT_GT(shortened, 2'000);
+}
+
 // The ray is known to within errors; the exact line is any other within them.
 TEST_P(Battery, BoundsHoldForEveryLineWithinTheErrors) {
   Random random(seed());
@@ -272,6 +356,7 @@ TEST_P(Battery, RaysThatAreNotRaysCrossNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Battery, EveryKind::all(), EveryKind::label);
+INSTANTIATE_TEST_SUITE_P(Kinds, Windows, Windows::all(), EveryKind::label);
 
 // The battery can fail: a sphere whose bounds are ten times too small, one that is too large by a few units in the last
 // place, one whose grazing chords are dropped.

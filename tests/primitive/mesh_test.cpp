@@ -219,7 +219,7 @@ TEST(Mesh, TheHierarchyFindsEveryTriangleThatALineMayCross) {
       const MeshLine line(ray, bounds);
       MeshCandidate candidate;
       std::vector<bool> seen(mesh.triangles.size());
-      bvh.walk(line, -Box3::inf, [&](std::uint32_t t) {
+      bvh.walk(line, {}, [&](std::uint32_t t) {
         EXPECT_FALSE(seen[t]);
         seen[t] = true;
         ++visited;
@@ -251,7 +251,7 @@ TEST(Mesh, CrossingsFromAStartOnAreThoseOfTheWholeLine) {
         const double begin = random.uniform(-1, 4) / length(ray.direction);
         Spans whole, some;
         solid.spans(ray, whole);
-        solid.spans_from(ray, begin, some);
+        solid.spans_within(ray, {begin, Box3::inf}, some);
         const auto is_near = [begin](const Crossing& c) { return std::fabs(c.t - begin) <= c.bound; };
         if (std::any_of(whole.begin(), whole.end(), is_near)) continue;
         ASSERT_FALSE(check_order(some)) << *check_order(some) << describe(some);
@@ -289,8 +289,8 @@ TEST(Mesh, FromAStartOnTheKdTreeFindsWhatTheHierarchyFinds) {
     ray.origin = 1.1 * random.in_cube();
     ray.direction = random.direction();
     Spans expected, found;
-    by_boxes.spans_from(ray, 0, expected);
-    by_planes.spans_from(ray, 0, found);
+    by_boxes.spans_within(ray, {0, Box3::inf}, expected);
+    by_planes.spans_within(ray, {0, Box3::inf}, found);
     ASSERT_EQ(expected.size(), found.size()) << describe(ray.origin, ray.direction);
     for (std::size_t k = 0; k < found.size(); ++k) EXPECT_EQ(expected[k].t, found[k].t);
     crossed += static_cast<int>(found.size());

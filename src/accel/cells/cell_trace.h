@@ -108,6 +108,9 @@ struct CellScratch {
   struct KnownSpans {
     LeafId leaf;
     std::uint64_t ray = 0;
+    Placement::MappedRay mapped;  ///< the ray in the leaf's frame
+    LineWindow window;            ///< in which its crossings are known; of a primitive without windows all are
+    bool has_windows = false;
     Spans spans;
   };
   static constexpr std::size_t known = 64;

@@ -265,10 +265,11 @@ class ExactCell {
     auto& lists = classifier.source().of_leaf;
     if (lists.size() < leaves.size()) lists.resize(leaves.size());
     const double near = 8 * ray_.resolution();
+    const LineWindow window{t_in - near, t_out + near};
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-      const Spans& known = FindSpans(leaves[i], start_face(*ray_.query, leaves[i]));
+      const Spans& known = FindSpans(leaves[i], start_face(*ray_.query, leaves[i]), window);
       for (const Crossing& c : known) {
-        const bool matters = c.t + c.bound >= t_in - near && c.t - c.bound <= t_out + near;
+        const bool matters = window.meets(c.t - c.bound, c.t + c.bound);
         if (c.surface || (matters && !(c.bound <= ray_.resolution()))) return Outcome::unsure;
       }
       lists[i] = known;
@@ -330,26 +331,29 @@ class ExactCell {
           crossing_near(tree_.primitives, primitive, Map(leaf, on_face), answer.t, ray_.near, answer.leaf_entering);
       if (found) return take(*found);
     }
-    for (const Crossing& c : FindSpans(leaf, on_face)) {
+    const LineWindow window{answer.t - 2 * ray_.near, answer.t + 2 * ray_.near};
+    for (const Crossing& c : FindSpans(leaf, on_face, window)) {
       if (c.entering == answer.leaf_entering && std::fabs(c.t - answer.t) <= ray_.near) return take(c);
     }
     return false;
   }
 
-  const Spans& FindSpans(LeafId leaf, int on_face) {
+  // At least those within a window.
+  const Spans& FindSpans(LeafId leaf, int on_face, const LineWindow& window) {
     auto& known = scratch_.mailbox[leaf.get() % CellScratch::known];
-    if (known.ray == number_ && known.leaf == leaf) return known.spans;
-    ++tests_;
-    known.ray = number_;
-    known.leaf = leaf;
-    known.spans.clear();
-    const Leaf& placed = tree_[leaf];
-    if (ray_.local == nullptr) {
-      spans(tree_.primitives, placed.primitive, placed.placement, ray_.query->ray, tree_.tolerance.distance, on_face,
-            known.spans);
-    } else {
-      spans(tree_.primitives, placed.primitive, placed.placement, LocalFrom(on_face), known.spans);
+    const PrimitiveId primitive = tree_[leaf].primitive;
+    if (known.ray != number_ || known.leaf != leaf) {
+      known.ray = number_;
+      known.leaf = leaf;
+      known.mapped = Map(leaf, on_face);
+      known.has_windows = window_share(tree_.primitives, primitive) < 1;
+    } else if (!known.has_windows || (known.window.begin <= window.begin && window.end <= known.window.end)) {
+      return known.spans;
     }
+    ++tests_;
+    known.spans.clear();
+    known.window = window;
+    spans_within(tree_.primitives, primitive, known.mapped, window, known.spans);
     return known.spans;
   }
 

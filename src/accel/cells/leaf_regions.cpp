@@ -85,8 +85,14 @@ LeafRegions::LeafRegions(const CsgTree& tree, const LeafRecords* records)
     if (records != nullptr) {
       const double price = CellCost::of_leaf(records->of_leaf[i].kind(), cost(tree.primitives, leaf.primitive));
       region.price = static_cast<float>(price);
+      if (records->of_leaf[i].kind() == RecordKind::general) {
+        region.price_of_length = static_cast<float>(price * (1 - window_share(tree.primitives, leaf.primitive)));
+      }
     }
     add_shape(leaf, region);
+    // What has many faces has smaller features than its whole.
+    constexpr double feature = 0.25;
+    if (region.has_windows()) region.extent *= feature;
     region.has_pieces = records != nullptr && LeafPieces::may_have(tree, leaf);
   }
 }

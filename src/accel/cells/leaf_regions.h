@@ -25,6 +25,7 @@ struct RegionLeaf {
   double outer_square = 0;  ///< and what lies farther is outside. Both infinite for an upright box
   double extent = 0;        ///< how large its features are: the longest edge of its bounds, for a ring across its tube
   float price = 1;          ///< CellCost::of_leaf
+  float price_of_length = 0;  ///< the part of the price that falls with the length of the ray's way through a cell
   Kind kind = Kind::general;
   bool has_pieces = false;      ///< see LeafPieces
   std::uint8_t round_axes = 0;  ///< bit a: distances along axis a count. Along the others a plain leaf is its bounds
@@ -32,6 +33,8 @@ struct RegionLeaf {
   std::uint32_t shape = 0;  ///< of rings and turned boxes: which; of an instance: its PrototypeId
 
   bool is_round_along(int axis) const { return (round_axes >> axis & 1) != 0; }
+  /// Whether less has to be asked of it in a smaller cell (spans_within() of the primitive).
+  bool has_windows() const { return price_of_length > 0; }
 };
 
 /// Tells where boxes lie with respect to the leaves: what classify() says, and for the commonest kinds much the same

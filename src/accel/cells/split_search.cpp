@@ -53,10 +53,13 @@ Split SplitSearch::best_split(const Box3& box, const FoldedTable& rest) {
 }
 
 // Evenly spaced planes, the middle first, and the bounds of leaves, a little off, so that faces do not lie in planes.
-// For a cell that costs no more than two balls planes beside the middle do not pay (by trial on the bench).
+// For a cell that costs no more than two balls planes beside the middle do not pay, nor do they among leaves that take
+// long to classify, and cost less in any smaller part (by trial on the bench).
 void SplitSearch::list_planes(const Box3& box, std::uint32_t leaves) {
   planes_.clear();
-  const int beside = cell_cost_[leaves] > CellCost::visit + 2 * CellCost::of_leaf(RecordKind::ball, 1) ? beside_ : 0;
+  bool is_worth_more = cell_cost_[leaves] > CellCost::visit + 2 * CellCost::of_leaf(RecordKind::ball, 1);
+  for_each_bit(leaves, [&](std::size_t i) { is_worth_more &= !leaves_[i].has_windows(); });
+  const int beside = is_worth_more ? beside_ : 0;
   const Vec3 size = box.size();
   const double longest = max_component(size), off = 4 * growth_;
   for (int axis = 0; axis < 3; ++axis) {

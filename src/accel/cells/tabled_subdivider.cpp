@@ -12,6 +12,16 @@
 
 namespace tenon::cells {
 
+namespace {
+
+// Of all lines through a box: four times its volume over its surface (Cauchy).
+double mean_chord(const Box3& box) {
+  const Vec3 size = box.size();
+  return 4 * size.x * size.y * size.z / box.surface_area();
+}
+
+}  // namespace
+
 std::optional<Subdivision::Built> TabledSubdivider::subdivide(const Box3& box, std::span<const Symbol> expression,
                                                               int depth, std::size_t most_cells, Subdivision& result) {
   if (!expression_.assign(expression)) return std::nullopt;
@@ -53,11 +63,13 @@ Subdivision::Built TabledSubdivider::build(const Part& part) {
 }
 
 bool TabledSubdivider::worth_splitting(const Part& part) const {
-  const bool may_gain = std::popcount(part.rest.leaves) > 1 || part.may_come_to_pieces;
+  const bool may_gain = std::popcount(part.rest.leaves) > 1 || part.may_cost_less;
   if (!may_gain || result_->store.cells.size() > most_cells_) return false;
   if (part.depth >= input_.limits.depth) return false;
-  // What costs twice as much is worth one more try.
-  if (part.unpaid >= input_.quality.look_ahead + std::ilogb(search_.cell_cost(part.rest.leaves))) return false;
+  // What costs twice as much is worth one more try, up to a point.
+  constexpr int most_more = 4;
+  const int more = std::min(std::ilogb(search_.cell_cost(part.rest.leaves)), most_more);
+  if (part.unpaid >= input_.quality.look_ahead + more) return false;
   double smallest = std::numeric_limits<double>::infinity();
   for_each_bit(part.rest.leaves, [&](std::size_t i) { smallest = std::min(smallest, search_.leaf(i).extent); });
   const double edge = max_component(part.box.size());
@@ -69,7 +81,7 @@ TabledSubdivider::Part TabledSubdivider::make_part(const Box3& box, const Folded
   const Box3 within = grown(box, input_.scale.growth);
   Box3 around;
   double cost = search_.cell_cost(rest.leaves);
-  bool may_come_to_pieces = false;
+  bool may_cost_less = false;
   for_each_bit(rest.leaves, [&](std::size_t i) {
     const RegionLeaf& leaf = search_.leaf(i);
     if (leaf.has_pieces && pieces_.find(leaf.leaf, within)) {
@@ -77,12 +89,18 @@ TabledSubdivider::Part TabledSubdivider::make_part(const Box3& box, const Folded
       cost += CellCost::of_leaf(RecordKind::piece, 0) - static_cast<double>(leaf.price);
       return;
     }
-    may_come_to_pieces |= leaf.has_pieces;
-    around = hull(around, input_.regions.surface_within(leaf, within));
+    may_cost_less |= leaf.has_pieces || leaf.has_windows();
+    const Box3 surface = input_.regions.surface_within(leaf, within);
+    around = hull(around, surface);
+    if (leaf.has_windows() && !surface.is_empty()) {
+      // Of a window's length, the mean of the chords of the box.
+      const double share = std::min(1.0, mean_chord(surface) / mean_chord(leaf.bounds));
+      cost -= static_cast<double>(leaf.price_of_length) * (1 - share);
+    }
   });
   if (around.is_empty()) return {box, {}, {}, 0, false, depth, 0};
   const Box3 tight = intersection(box, grown(around, input_.scale.growth));
-  return {box, rest, tight, tight.surface_area() * cost, may_come_to_pieces, depth, 0};
+  return {box, rest, tight, tight.surface_area() * cost, may_cost_less, depth, 0};
 }
 
 // What a leaf is followed by in a part: its own record, or that of what it comes to there.

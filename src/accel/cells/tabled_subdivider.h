@@ -30,9 +30,9 @@ class TabledSubdivider {
   struct Part {
     Box3 box;
     FoldedTable rest;
-    Box3 tight;                       // around the boundary
-    double cost = 0;                  // as one cell, times the area of `tight`
-    bool may_come_to_pieces = false;  // some leaf is of a kind that has them, but not here
+    Box3 tight;                  // around the boundary
+    double cost = 0;             // as one cell, times the area of `tight`
+    bool may_cost_less = false;  // some leaf does in smaller parts
     int depth = 0;
     int unpaid = 0;  // splits in a row, on the way here, that pay only if others do that follow
   };
