@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
   app.add_option("--largest", options.largest_growth, "Spheres of the largest scene of `growth`")
       ->capture_default_str();
   app.add_option("--scene", options.scenes, "Of the six scenes only these")->check(CLI::IsMember(scene_names()));
+  app.add_option("--file", options.files, "`structures`: on these scene files instead")->check(CLI::ExistingFile);
   app.add_option("--rays", options.rays, "Of the kinds of ray only these")
       ->delimiter(',')
       ->check(CLI::IsMember({"primary", "shadow", "diffuse"}));

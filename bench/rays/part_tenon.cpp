@@ -104,23 +104,33 @@ RaySet eightfold(RaySet set) {
 }  // namespace
 
 Status run_structures(const PartOptions& options, Report& report) {
-  std::map<std::string, std::vector<double>> scenes, own, examples;
-  for (const std::string& name : options.scenes) {
-    report.heading(name);
-    if (Status status = compare_structures(scene_path(name), options, report, scenes); !status) return status;
+  struct Group {
+    std::string name;
+    std::vector<std::string> paths;
+  };
+  std::vector<Group> groups;
+  const auto add = [&](const std::string& name, const std::vector<std::string>& scenes) {
+    Group& group = groups.emplace_back(Group{name, {}});
+    for (const std::string& scene : scenes) group.paths.push_back(scene_path(scene));
+  };
+  if (!options.files.empty()) {
+    groups.push_back({"scenes of files", options.files});
+  } else {
+    add("the six scenes", options.scenes);
+    if (options.scenes == scene_names()) add("media and copies", own_scenes);
+    if (options.against.empty()) groups.push_back({"OpenSCAD's examples", example_paths()});
   }
-  for (const std::string& name : options.scenes == scene_names() ? own_scenes : std::vector<std::string>{}) {
-    report.heading(name);
-    if (Status status = compare_structures(scene_path(name), options, report, own); !status) return status;
-  }
-  for (const std::string& path : options.against.empty() ? example_paths() : std::vector<std::string>{}) {
-    report.heading(path);
-    if (Status status = compare_structures(path, options, report, examples); !status) return status;
+  std::vector<std::map<std::string, std::vector<double>>> ratios(groups.size());
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    for (const std::string& path : groups[i].paths) {
+      report.heading(path);
+      if (Status status = compare_structures(path, options, report, ratios[i]); !status) return status;
+    }
   }
   report.heading("how many times as fast as the best of the others on each scene");
-  for (const auto& [rays, ratios] : scenes) report.summary(rays + " rays, the six scenes", ratios);
-  for (const auto& [rays, ratios] : own) report.summary(rays + " rays, media and copies", ratios);
-  for (const auto& [rays, ratios] : examples) report.summary(rays + " rays, OpenSCAD's examples", ratios);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    for (const auto& [rays, of_scenes] : ratios[i]) report.summary(rays + " rays, " + groups[i].name, of_scenes);
+  }
   return success();
 }
 

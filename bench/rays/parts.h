@@ -16,6 +16,7 @@ struct PartOptions {
   int threads = 1;                   ///< what "all cores" means
   int largest_growth = 1'000'000;    ///< spheres of the largest scene of `growth`
   std::vector<std::string> scenes;   ///< of scenes/bench, which every contender traces
+  std::vector<std::string> files;    ///< scene files that `structures` is to compare on instead
   std::vector<std::string> rays;     ///< kinds of ray to trace
   std::vector<std::string> against;  ///< the structures to compare with; empty: all of them, on OpenSCAD's examples too
 

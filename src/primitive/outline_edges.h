@@ -33,6 +33,9 @@ struct OutlineEdge {
     const Vec2 w = chord();
     return bulge * (2 * p - w) + flatness() * Vec2{w.y, -w.x};
   }
+  /// Over the length of the gradient on the line or circle, so that it is about the distance near there.
+  double distance(const Vec2& p) const { return value(p) / gradient_length(); }
+  double gradient_length() const { return 0.5 * length(chord()) * (1 + bulge * bulge); }
   /// Bound on the length of the gradient within a distance of `from`.
   double steepness(double distance) const {
     const double w = length(chord());

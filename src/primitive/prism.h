@@ -9,6 +9,7 @@
 #include "primitive/concept.h"
 #include "primitive/edge_crossings.h"
 #include "primitive/outline_edges.h"
+#include "primitive/wall_part.h"
 
 namespace tenon {
 
@@ -53,6 +54,7 @@ class Prism {
   std::uint32_t face_count() const { return walls + 2 * static_cast<std::uint32_t>(edges_.edges().size()); }
   Vec3 normal(const Vec3& point, std::uint32_t face) const;
   PlanarPart planes_within(const LocalBox& box, std::vector<Plane>& planes) const;
+  bool walls_within(const LocalBox& box, std::size_t most, WallPart& part) const;
 
  private:
   class Line;
@@ -61,6 +63,8 @@ class Prism {
   double slope() const { return (scale - 1) / h; }
   double scale_at(double z) const { return 1 + (z - low()) * slope(); }
   Vec3 point_between_caps(const LocalBox& box) const;
+  template <class Visit>
+  bool visit_walls(const LocalBox& box, double least_scale, double most_scale, const Visit& visit) const;
   bool lies_beyond(const LocalBox& box, const Vec2& n, const Vec2& v) const;
   bool may_touch(const LocalBox& box, const OutlineEdge& edge) const;
 

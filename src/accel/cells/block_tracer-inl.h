@@ -329,8 +329,8 @@ class BlockTracer {
     for (std::uint32_t bits = RayBatch::Bits(is_from); bits != 0; bits &= bits - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
       const RayQuery& query = rays_.queries[at + lane];
-      if (start_face(query, cell.leaves[place]) == 0 && !cells_.records.start_is_certain(record, query.ray.direction))
-        doubts[lane] = 1;
+      const int on_face = start_face(query, cell.leaves[place]);
+      if (!cells_.records.start_is_certain(record, on_face, query.ray.direction)) doubts[lane] = 1;
     }
     return hn::Or(doubt, hn::Gt(hn::Load(d, doubts), zero));
   }

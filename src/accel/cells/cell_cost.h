@@ -21,6 +21,8 @@ struct CellCost {
     return (visit + leaves_cost) * (leaves <= Cell::most_tabled ? 1 : untabled_factor);
   }
 
+  static double of_outline(std::size_t walls) { return 3 + 1.2 * static_cast<double>(walls); }
+
   /// @param spans_cost  of the primitive's spans() (dispatch.h), for leaves without a record
   static double of_leaf(RecordKind kind, double spans_cost) {
     switch (kind) {
@@ -35,8 +37,12 @@ struct CellCost {
       case RecordKind::frustum:
       case RecordKind::convex:
       case RecordKind::notch:
-      case RecordKind::piece:
+      case RecordKind::convex_piece:
+      case RecordKind::notch_piece:
         return 2.5;
+      case RecordKind::outline:
+      case RecordKind::outline_piece:
+        return of_outline(1);
       case RecordKind::torus:
         return 8;
       case RecordKind::instance:
@@ -44,8 +50,10 @@ struct CellCost {
       case RecordKind::general:
         break;
     }
-    return spans_factor * spans_cost;
+    return of_spans(spans_cost);
   }
+
+  static double of_spans(double spans_cost) { return spans_factor * spans_cost; }
 };
 
 }  // namespace tenon::cells

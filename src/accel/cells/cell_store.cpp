@@ -9,12 +9,13 @@ void append(List& list, const List& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
-/// Moves the records of a cell's pieces behind `first` others. @param kind_of  kind_of(index) of each
+/// Moves the records of a cell's pieces behind `first` others. @param kind_of  kind_of(kind) of each from now on
 template <class KindOf>
 void move_pieces(Cell& cell, std::size_t first, const KindOf& kind_of) {
   for (std::size_t i = 0; i < cell.leaf_count; ++i) {
     RecordRef& record = cell.records[i];
-    if (record.kind() == RecordKind::piece) record = {kind_of(record.index()), record.index() + first};
+    const RecordKind kind = record.kind();
+    if (settled(kind) != kind) record = {kind_of(kind), record.index() + first};
   }
 }
 
@@ -78,16 +79,14 @@ void CellStore::append(const CellStore& part) {
   cells::append(media, part.media);
   if (part.pieces.empty()) return;
   for (std::size_t i = first_cell; i < cells.size(); ++i) {
-    move_pieces(cells[i], pieces.size(), [](std::uint32_t) { return RecordKind::piece; });
+    move_pieces(cells[i], pieces.size(), [](RecordKind kind) { return kind; });
   }
   cells::append(pieces, part.pieces);
 }
 
 void CellStore::settle_pieces(std::size_t first) {
   for (Cell& cell : cells) {
-    move_pieces(cell, first, [&](std::uint32_t index) {
-      return pieces[index].values[ConvexRecord::count] < 0 ? RecordKind::notch : RecordKind::convex;
-    });
+    move_pieces(cell, first, settled);
   }
 }
 

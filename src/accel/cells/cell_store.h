@@ -19,7 +19,7 @@ struct CellStore {
   std::vector<Symbol> symbols;
   std::vector<LeafId> extended_leaves;
   std::vector<CellMedia> media;
-  std::vector<LeafRecords::Line> pieces;  ///< records of RecordKind::piece
+  std::vector<LeafRecords::Line> pieces;  ///< records of what leaves come to in single cells
 
   /// What one of the values of a cell's table stands for.
   MediumId medium_of(const Cell& cell, std::uint32_t value) const {
@@ -59,7 +59,7 @@ struct CellStore {
   /// expression is left out.
   ChildRef add_extended(std::span<const Symbol> expression, std::uint32_t leaf_count);
 
-  /// Has pieces be the kind that their records are, once these stand behind `first` others.
+  /// Has pieces be records like others, once theirs stand behind `first` of those.
   void settle_pieces(std::size_t first);
 
   /// Adds the cells of another store behind these.

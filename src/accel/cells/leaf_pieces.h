@@ -3,12 +3,14 @@
 #include <vector>
 
 #include "accel/cells/cell_scale.h"
+#include "accel/cells/outline_recorder.h"
 #include "csg/csg_tree.h"
 
 namespace tenon::cells {
 
 /// What leaves of costly kinds come to within small boxes: where few faces of one go through, it is what lies below a
-/// few planes, as a convex solid does, or all but that (planes_within() of the primitive).
+/// few planes, as a convex solid does, or all but that (planes_within() of the primitive), or what few walls of a swept
+/// outline bound (walls_within()).
 class LeafPieces {
  public:
   /// @param center  what the records' places are relative to
@@ -21,18 +23,36 @@ class LeafPieces {
   /// Finds the piece of a leaf that stands for it within a box of the world.
   /// @return whether there is one
   bool find(LeafId leaf, const Box3& box);
-  /// A box around the surface of the piece that was found last, within the box.
+  /// Of the piece that was found last: convex_piece, notch_piece or outline_piece.
+  RecordKind kind() const { return kind_; }
+  /// A box around its surface, within the box.
   Box3 surface() const;
-  /// The numbers of its ConvexRecord.
-  const std::vector<double>& values() const { return values_; }
+  /// CellCost::of_leaf.
+  double price() const;
+  /// The numbers of its record.
+  const std::vector<double>& values() {
+    return kind_ == RecordKind::outline_piece ? outline_.finish(*leaf_, scale_) : values_;
+  }
 
  private:
+  // More cost more than they save (by trial on OpenSCAD's examples).
+  static constexpr std::size_t most_walls = 16;
+
+  bool find_planes(const Leaf& leaf, const LocalBox& local);
+  bool find_walls(const Leaf& leaf, const LocalBox& local);
+  Box3 surface_of_planes() const;
+  Box3 surface_of_walls() const;
+
   const CsgTree& tree_;
   const CellScale& scale_;
   const Vec3 center_;
+  RecordKind kind_ = RecordKind::general;
   Box3 box_;
   std::vector<Plane> planes_;  // in the leaf's frame
   std::vector<double> values_;
+  const Leaf* leaf_ = nullptr;  // of walls
+  WallPart walls_;
+  OutlineRecorder outline_;
 };
 
 }  // namespace tenon::cells

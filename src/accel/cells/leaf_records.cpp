@@ -292,8 +292,18 @@ class Recorder {
 
 }  // namespace
 
-bool LeafRecords::start_is_certain(RecordRef ref, const Vec3& direction) const {
+bool LeafRecords::start_is_certain(RecordRef ref, int on_face, const Vec3& direction) const {
   const double* r = values(ref);
+  const auto mapped = [&](std::size_t first_row, std::size_t i) {
+    const double* const row = r + first_row + 3 * i;
+    return dot(Vec3{row[0], row[1], row[2]}, direction);
+  };
+  if (ref.kind() == RecordKind::outline) {
+    const double across = square(mapped(OutlineRecord::map, 0)) + square(mapped(OutlineRecord::map, 1));
+    return across >= r[OutlineRecord::start] * dot(direction, direction);
+  }
+  // The caps are flat.
+  if (on_face != 0) return true;
   const auto is_certain = [&](const double* profile, double x, double y, double z) {
     const double a = square(x) + square(y) - profile[ProfileRecord::gamma] * square(z);
     return std::fabs(a) > profile[ProfileRecord::start] * dot(direction, direction);
@@ -302,10 +312,7 @@ bool LeafRecords::start_is_certain(RecordRef ref, const Vec3& direction) const {
     return is_certain(r + UprightRecord::profile, direction.x, direction.y, direction.z);
   }
   if (ref.kind() == RecordKind::frustum) {
-    const auto row = [&](std::size_t i) {
-      const double* const first = r + FrustumRecord::map + 3 * i;
-      return dot(Vec3{first[0], first[1], first[2]}, direction);
-    };
+    const auto row = [&](std::size_t i) { return mapped(FrustumRecord::map, i); };
     return is_certain(r + FrustumRecord::profile, row(0), row(1), row(2));
   }
   return true;

@@ -13,8 +13,8 @@ namespace tenon::cells {
 /// The kinds of leaf that rays are followed through by plain arithmetic. A ray that meets a cell with a `general` leaf
 /// is resolved by the classifier there; in one with an `instance` it is followed through the cells of that.
 ///
-/// A `piece` is what a leaf comes to in one cell (LeafPieces): a convex solid, or all but one, a `notch`. Which of
-/// them, its record tells once all cells are built.
+/// A piece is what a leaf comes to in one cell (LeafPieces): a convex solid, all but one, a `notch`, or a swept outline
+/// of few walls. Until all cells are built, its record stands in their store.
 enum class RecordKind : std::uint8_t {
   general,
   ball,
@@ -25,9 +25,26 @@ enum class RecordKind : std::uint8_t {
   convex,
   torus,
   notch,
+  outline,
   instance,
-  piece
+  convex_piece,
+  notch_piece,
+  outline_piece
 };
+
+/// The kind of a piece whose record has come to stand with all others; any other kind is what it was.
+inline RecordKind settled(RecordKind kind) {
+  switch (kind) {
+    case RecordKind::convex_piece:
+      return RecordKind::convex;
+    case RecordKind::notch_piece:
+      return RecordKind::notch;
+    case RecordKind::outline_piece:
+      return RecordKind::outline;
+    default:
+      return kind;
+  }
+}
 
 /// Whether a leaf of the kind has a record.
 inline bool is_followed(RecordKind kind) {
@@ -88,6 +105,22 @@ struct ConvexRecord {
   static constexpr std::size_t count = 0, least = 1, planes = 2, plane_size = 4;
 };
 
+/// A swept outline within a box of the world (WallPart), relative to the box's middle.
+///
+/// A place u in the leaf's frame is inside of the outline if the way from there to `place`, of which `is_inside` says
+/// so, passes an even number of walls. Of each of them, relative to its first end, p = u - offset - scale_slope u.z
+/// from, curvature |p|² + normal·p scale(u.z) = 0 is the line or circle; about the distance near there, times the
+/// scale. `least` and `graze` are as in ConvexRecord and ProfileRecord; nearer than `margin` to an end of a wall, or
+/// than `place_margin` in the plane of the outline, nothing is certain.
+struct OutlineRecord {
+  static constexpr std::size_t center = 0, map = 3, low = 12, high = 13, least_to_caps = 14, least = 15, margin = 16,
+                               place_margin = 17, scale = 18, scale_slope = 19, start = 20, is_inside = 21, count = 22,
+                               walls = 23;
+  // Of each wall.
+  static constexpr std::size_t offset = 0, from = 2, normal = 4, chord = 6, length = 8, curvature = 9, graze = 10,
+                               place = 11, at_place = 13, wall_size = 14;
+};
+
 /// A ring in a frame of its own: its radii, a bound on the error of TorusQuartic, and the slope of that function along
 /// a ray, over the length of its direction in the world, below which a root is not certain.
 struct TorusRecord {
@@ -110,10 +143,12 @@ struct LeafRecords {
   double least_slope = 0;
 
   const double* values(RecordRef ref) const { return lines[ref.index()].values.data(); }
-  /// Whether a ray that starts on the leaf's face 0 is certain of where it meets that face again.
-  bool start_is_certain(RecordRef ref, const Vec3& direction) const;
+  /// Whether a ray that starts on a face of the leaf is certain of where it meets that face again.
+  bool start_is_certain(RecordRef ref, int on_face, const Vec3& direction) const;
   /// Whether there are directions in which it is not.
-  static bool may_doubt_starts(RecordKind kind) { return kind == RecordKind::upright || kind == RecordKind::frustum; }
+  static bool may_doubt_starts(RecordKind kind) {
+    return kind == RecordKind::upright || kind == RecordKind::frustum || kind == RecordKind::outline;
+  }
 
   std::size_t memory_bytes() const { return of_leaf.size() * sizeof(RecordRef) + lines.size() * sizeof(Line); }
 

@@ -83,15 +83,14 @@ LeafRegions::LeafRegions(const CsgTree& tree, const LeafRecords* records)
     region.bounds = leaf.bounds;
     region.extent = max_component(leaf.bounds.size());
     if (records != nullptr) {
-      const double price = CellCost::of_leaf(records->of_leaf[i].kind(), cost(tree.primitives, leaf.primitive));
-      region.price = static_cast<float>(price);
-      if (records->of_leaf[i].kind() == RecordKind::general) {
-        region.price_of_length = static_cast<float>(price * (1 - window_share(tree.primitives, leaf.primitive)));
-      }
+      const double spans_cost = cost(tree.primitives, leaf.primitive), exact_price = CellCost::of_spans(spans_cost);
+      region.price = static_cast<float>(CellCost::of_leaf(records->of_leaf[i].kind(), spans_cost));
+      region.exact_price = static_cast<float>(exact_price);
+      region.price_of_length = static_cast<float>(exact_price * (1 - window_share(tree.primitives, leaf.primitive)));
     }
     add_shape(leaf, region);
     // What has many faces has smaller features than its whole.
-    constexpr double feature = 0.25;
+    constexpr double feature = 0.5;
     if (region.has_windows()) region.extent *= feature;
     region.has_pieces = records != nullptr && LeafPieces::may_have(tree, leaf);
   }

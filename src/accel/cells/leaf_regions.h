@@ -25,7 +25,8 @@ struct RegionLeaf {
   double outer_square = 0;  ///< and what lies farther is outside. Both infinite for an upright box
   double extent = 0;        ///< how large its features are: the longest edge of its bounds, for a ring across its tube
   float price = 1;          ///< CellCost::of_leaf
-  float price_of_length = 0;  ///< the part of the price that falls with the length of the ray's way through a cell
+  float exact_price = 1;    ///< CellCost::of_spans
+  float price_of_length = 0;  ///< the part of that which falls with the length of the ray's way through a cell
   Kind kind = Kind::general;
   bool has_pieces = false;      ///< see LeafPieces
   std::uint8_t round_axes = 0;  ///< bit a: distances along axis a count. Along the others a plain leaf is its bounds

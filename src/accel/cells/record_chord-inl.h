@@ -11,6 +11,8 @@
 
 #include <type_traits>
 
+#include "accel/cells/flat_rays-inl.h"
+#include "accel/cells/outline_stretch-inl.h"
 #include "accel/cells/scene_rays-inl.h"
 #include "accel/cells/torus_stretch-inl.h"
 
@@ -27,31 +29,6 @@ HWY_INLINE Stretch<D> BallStretch(D d, const SceneRays<D>& ray, const Record& r)
   const auto graze = r[BallRecord::graze];
   const auto half = hn::Sqrt(hn::Mul(hn::Max(square, graze), ray.inverse_square));
   return {hn::Sub(nearest, half), hn::Add(nearest, half), hn::Gt(square, graze), hn::Le(hn::Abs(square), graze)};
-}
-
-/// A ray nearly parallel to a face is not sure of it unless the face is too far off to be met in the scene: 16 reach
-/// times the least slope.
-template <class D>
-HWY_INLINE hn::Mask<D> DoubtFlat(D d, hn::Vec<D> slope, hn::Vec<D> length, hn::Vec<D> least, double reach,
-                                 hn::Vec<D> distance) {
-  const auto flat = hn::Le(hn::Abs(slope), hn::Mul(least, length));
-  return hn::And(flat, hn::Le(hn::Abs(distance), hn::Mul(hn::Set(d, 16 * reach), least)));
-}
-
-/// Along one axis of the world.
-template <class D>
-HWY_INLINE void ClipAligned(D, hn::Vec<D> origin, hn::Vec<D> slowness, hn::Vec<D> low, hn::Vec<D> high, Stretch<D>& s) {
-  const auto a = hn::Mul(hn::Sub(low, origin), slowness);
-  const auto b = hn::Mul(hn::Sub(high, origin), slowness);
-  s.enter = hn::Max(s.enter, hn::Min(a, b));
-  s.leave = hn::Min(s.leave, hn::Max(a, b));
-}
-
-template <class D>
-HWY_INLINE Stretch<D> WholeStretch(D d) {
-  const auto infinity = hn::Set(d, std::numeric_limits<double>::infinity());
-  const auto all = hn::Eq(infinity, infinity);
-  return {hn::Neg(infinity), infinity, all, hn::Not(all)};
 }
 
 template <class D, class Record>
@@ -76,13 +53,6 @@ HWY_INLINE Stretch<D> AlignedBoxStretch(D d, const SceneRays<D>& ray, const Reco
   return s;
 }
 
-/// 1 / x, large instead of infinite.
-template <class D>
-HWY_INLINE hn::Vec<D> Slowness(D d, hn::Vec<D> x) {
-  const auto most = hn::Set(d, 0x1p100);
-  return hn::Max(hn::Min(hn::Div(hn::Set(d, 1.0), x), most), hn::Neg(most));
-}
-
 template <class D, class Record>
 HWY_INLINE Stretch<D> BoxStretch(D d, const SceneRays<D>& ray, const Record& r, double reach) {
   const auto o = Map3(d, r, BoxRecord::map, Sub3(ray.origin, Load3(d, r, BoxRecord::center)));
@@ -97,21 +67,6 @@ HWY_INLINE Stretch<D> BoxStretch(D d, const SceneRays<D>& ray, const Record& r, 
   }
   DoubtShort(d, ray, s);
   return s;
-}
-
-/// Lines that graze a quadric, or pass the tip of a cone, but not between two places.
-///
-/// F(t) = a t² + 2 b t + c has the discriminant D, so a F = (a t + b)² - D. With |D| up to `graze` and (a t + b)² above
-/// four times that, a F is above three times it. So |F| is more than six times the bound on its error that Certainty's
-/// graze is made from, and its sign that of a, for a is at most (1 + gamma) |direction|² in the quadric's frame, and
-/// graze as much larger.
-/// @return where that holds from t_in to t_out
-template <class D>
-HWY_NOINLINE hn::Mask<D> GrazesElsewhere(D d, hn::Vec<D> a, hn::Vec<D> b, hn::Vec<D> graze, hn::Vec<D> t_in,
-                                         hn::Vec<D> t_out) {
-  const auto first = hn::MulAdd(a, t_in, b), last = hn::MulAdd(a, t_out, b);
-  const auto least = hn::Mul(hn::Set(d, 2.0), hn::Sqrt(graze));
-  return hn::Or(hn::Gt(hn::Min(first, last), least), hn::Lt(hn::Max(first, last), hn::Neg(least)));
 }
 
 /// What of the line o + t v lies within the side of a solid of revolution, cut from the part between the caps, `s`.
@@ -288,11 +243,16 @@ HWY_INLINE Stretch<D> FindStretch(D d, const SceneRays<D>& ray, RecordKind kind,
     case RecordKind::notch:
       if constexpr (std::is_same_v<Record, SharedRecord<D>>) return NotchStretch(d, ray, r, reach, t_in, t_out);
       break;
+    case RecordKind::outline:
+      if constexpr (std::is_same_v<Record, SharedRecord<D>>) return OutlineStretch(d, ray, r, reach, t_in, t_out);
+      break;
     case RecordKind::torus:
       return TorusStretch(d, ray, r, t_in, t_out, lanes);
     case RecordKind::general:
     case RecordKind::instance:
-    case RecordKind::piece:
+    case RecordKind::convex_piece:
+    case RecordKind::notch_piece:
+    case RecordKind::outline_piece:
       break;
   }
   Stretch<D> none = WholeStretch(d);

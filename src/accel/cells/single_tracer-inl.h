@@ -427,7 +427,7 @@ class SingleTracer {
     const int on_face = start_face(query, cell.leaves[place]);
     if (on_face < 0) return !enters_here && !leaves_here;
     if (enters_here == leaves_here) return false;
-    if (on_face == 0 && !records.start_is_certain(cell.records[place], query.ray.direction)) return false;
+    if (!records.start_is_certain(cell.records[place], on_face, query.ray.direction)) return false;
     (enters_here ? enter : leave) = 0;
     return true;
   }

@@ -48,7 +48,10 @@ Subdivision::Built TabledSubdivider::build(const Part& part) {
   std::array<Part, 2> parts{make_part(low, split.rests[0], part.depth + 1),
                             make_part(high, split.rests[1], part.depth + 1)};
   const double step = CellCost::split * part.tight.surface_area();
-  const bool pays = parts[0].cost + parts[1].cost + step < part.cost * SplitLimits::least_gain;
+  const auto pays_by = [&](double Part::*cost) {
+    return parts[0].*cost + parts[1].*cost + step < part.*cost * SplitLimits::least_gain;
+  };
+  const bool pays = pays_by(&Part::cost) || pays_by(&Part::hope);
   const Subdivision::Mark mark = result_->mark();
   std::array<Subdivision::Built, 2> built;
   for (std::size_t side = 0; side < 2; ++side) {
@@ -80,27 +83,47 @@ TabledSubdivider::Part TabledSubdivider::make_part(const Box3& box, const Folded
   // The boundary lies on the surfaces of the leaves.
   const Box3 within = grown(box, input_.scale.growth);
   Box3 around;
-  double cost = search_.cell_cost(rest.leaves);
-  bool may_cost_less = false;
+  // As they are followed, and as the classifier does, which has to follow all of them where one has no record.
+  double followed = CellCost::visit, exact = CellCost::visit, hoped = CellCost::visit;
+  bool has_unknown = false, may_cost_less = false;
   for_each_bit(rest.leaves, [&](std::size_t i) {
     const RegionLeaf& leaf = search_.leaf(i);
+    const Box3 surface = input_.regions.surface_within(leaf, within);
+    const double exact_price = this->exact_price(leaf, surface);
+    exact += exact_price;
+    may_cost_less |= leaf.has_windows();
     if (leaf.has_pieces && pieces_.find(leaf.leaf, within)) {
       around = hull(around, pieces_.surface());
-      cost += CellCost::of_leaf(RecordKind::piece, 0) - static_cast<double>(leaf.price);
+      followed += pieces_.price();
+      hoped += pieces_.price();
       return;
     }
-    may_cost_less |= leaf.has_pieces || leaf.has_windows();
-    const Box3 surface = input_.regions.surface_within(leaf, within);
     around = hull(around, surface);
-    if (leaf.has_windows() && !surface.is_empty()) {
-      // Of a window's length, the mean of the chords of the box.
-      const double share = std::min(1.0, mean_chord(surface) / mean_chord(leaf.bounds));
-      cost -= static_cast<double>(leaf.price_of_length) * (1 - share);
-    }
+    const bool is_unknown = input_.records.of_leaf[leaf.leaf.get()].kind() == RecordKind::general;
+    followed += static_cast<double>(leaf.price);
+    hoped += is_unknown ? exact_price : static_cast<double>(leaf.price);
+    has_unknown |= is_unknown;
   });
-  if (around.is_empty()) return {box, {}, {}, 0, false, depth, 0};
-  const Box3 tight = intersection(box, grown(around, input_.scale.growth));
-  return {box, rest, tight, tight.surface_area() * cost, may_cost_less, depth, 0};
+  Part part;
+  part.box = box;
+  part.depth = depth;
+  if (around.is_empty()) return part;
+  part.rest = rest;
+  part.tight = intersection(box, grown(around, input_.scale.growth));
+  part.cost = part.tight.surface_area() * (has_unknown ? exact : followed);
+  part.hope = part.tight.surface_area() * (has_unknown ? hoped : followed);
+  part.may_cost_less = may_cost_less;
+  return part;
+}
+
+// Of what the classifier asks of a leaf, some of which is in proportion to the length of a ray's way.
+double TabledSubdivider::exact_price(const RegionLeaf& leaf, const Box3& surface) const {
+  double price = static_cast<double>(leaf.exact_price);
+  if (leaf.has_windows() && !surface.is_empty()) {
+    const double share = std::min(1.0, mean_chord(surface) / mean_chord(leaf.bounds));
+    price -= static_cast<double>(leaf.price_of_length) * (1 - share);
+  }
+  return price;
 }
 
 // What a leaf is followed by in a part: its own record, or that of what it comes to there.
@@ -108,7 +131,7 @@ RecordRef TabledSubdivider::record(LeafId leaf, const Part& part) {
   const RecordRef own = input_.records.of_leaf[leaf.get()];
   if (!input_.regions[leaf].has_pieces) return own;
   if (!pieces_.find(leaf, grown(part.box, input_.scale.growth))) return own;
-  return {RecordKind::piece, append_values(pieces_.values(), result_->store.pieces)};
+  return {pieces_.kind(), append_values(pieces_.values(), result_->store.pieces)};
 }
 
 ChildRef TabledSubdivider::add_cell(const Part& part) {

@@ -32,6 +32,7 @@ class TabledSubdivider {
     FoldedTable rest;
     Box3 tight;                  // around the boundary
     double cost = 0;             // as one cell, times the area of `tight`
+    double hope = 0;             // the same if no leaf were in the way of others that have records there
     bool may_cost_less = false;  // some leaf does in smaller parts
     int depth = 0;
     int unpaid = 0;  // splits in a row, on the way here, that pay only if others do that follow
@@ -40,6 +41,7 @@ class TabledSubdivider {
   Subdivision::Built build(const Part& part);
   bool worth_splitting(const Part& part) const;
   Part make_part(const Box3& box, const FoldedTable& rest, int depth);
+  double exact_price(const RegionLeaf& leaf, const Box3& surface) const;
   RecordRef record(LeafId leaf, const Part& part);
   ChildRef add_cell(const Part& part);
 
