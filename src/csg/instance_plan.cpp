@@ -68,7 +68,7 @@ InstancePlan plan_instances(const SceneGraph& graph, std::vector<bool> is_transp
   if (plan.leaves <= most_leaves) return plan;
 
   // An instance costs what a few leaves do, and a subtree that is a small part of the whole saves little.
-  constexpr double least_leaves = 4, least_share = 1.0 / 16;
+  constexpr double least_leaves = 3, least_share = 1.0 / 16;
   plan.is_prototype.resize(graph.nodes.size());
   plan.is_transparent = std::move(is_transparent);
   for (const Content& c : content) plan.has_materials.push_back(c.has_materials);

@@ -43,6 +43,7 @@ class Mesh {
   /// where the line is inside there.
   void spans_within(const LocalRay& ray, const LineWindow& window, Spans& out) const;
   Region classify(const LocalBox& box) const;
+  PlanarPart planes_within(const LocalBox& box, std::vector<Plane>& planes) const;
   /// Between the corners' normals where the mesh has them.
   std::uint32_t face_count() const { return static_cast<std::uint32_t>(mesh->triangles.size()); }
   Vec3 normal(const Vec3& point, std::uint32_t face) const;

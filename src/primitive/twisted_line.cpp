@@ -207,7 +207,11 @@ void TwistedLine::search(const OutlineEdges& edges, const Interval& interval, do
                          std::vector<EdgeCrossing>& out) {
   if (!window_.meets(interval.begin, interval.end)) return;
   constexpr double widest = 0.5, narrowest = 0.0625;
-  if (turn <= widest) {
+  // Of what is much wider than the window most is passed over in any case; nothing is reported before the last step.
+  constexpr double much_wider = 4;
+  const bool is_worth_a_look =
+      turn <= narrowest || interval.end - interval.begin <= much_wider * (window_.end - window_.begin);
+  if (turn <= widest && is_worth_a_look) {
     std::optional<Motion<Enclosure>> motion;
     Way way;
     if constexpr (std::is_same_v<Way, EnclosedWay>) {

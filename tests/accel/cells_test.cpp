@@ -101,6 +101,44 @@ TEST(Cells, FollowPrismsByWhatTheyComeTo) {
   }
 }
 
+// Meshes of few triangles come to planes in most cells; with corners that go in and out, overlapping parts, and faces
+// that lie in one another's.
+TEST(Cells, FollowMeshesByTheirPlanes) {
+  Draw draw(42);
+  for (int round = 0; round < 8; ++round) {
+    SCOPED_TRACE(round);
+    SceneBuilder b;
+    const auto mesh = [&](TriangleMesh triangles) {
+      triangles.local = round % 2 == 0 ? MeshStructure::bvh : MeshStructure::kd;
+      return b.primitive("mesh", {meshes::share(std::move(triangles)), false});
+    };
+    const auto block = [&](const Vec3& low, const Vec3& high) { return meshes::box(low, high); };
+    // Two blocks in one mesh, which overlap in odd rounds.
+    TriangleMesh two = block({-1, -1, -1}, {0.2, 1, 1});
+    const TriangleMesh other = block({round % 2 == 0 ? 0.4 : -0.3, -0.5, -0.5}, {1.2, 0.5, 0.5});
+    const auto first = static_cast<std::uint32_t>(two.vertices.size());
+    two.vertices.insert(two.vertices.end(), other.vertices.begin(), other.vertices.end());
+    for (TriangleMesh::Corners corners : other.triangles) {
+      for (std::uint32_t& v : corners) v += first;
+      two.triangles.push_back(corners);
+    }
+    // A line that runs along a face of a mesh is known no better than the face is long, and the rays here run along
+    // axes.
+    const Vec3 turn{20, 35, 50.0 + round};
+    const SceneNodeId bodies =
+        b.unite({b.rotate(turn, mesh(two)), b.translate({0, 0, 1.2}, mesh(meshes::ring(1, 0.4, 5, 4))),
+                 b.translate({1.2, 1, 0}, mesh(meshes::star(1, [&](const Vec3&) { return draw.real(0.5, 1); })))});
+    const SceneNodeId tools =
+        b.unite({b.rotate(turn, b.translate({-0.5, -0.5, 0}, mesh(block({0, 0, 0}, {1, 1, 1})))),
+                 b.translate({0.5, 0, 1}, b.cylinder(2, 0.3)), b.translate({0, 1, 0}, b.sphere(0.4))});
+    const CsgTree tree = b.tree(b.subtract({bodies, tools}));
+    for (const char* spec : {"cells", "cells:quality=fast"}) expect_same_answers(tree, spec, 300);
+    expect_streams_say_what_single_rays_say(tree, 3000);
+    const auto cells = build_accelerator("cells", tree);
+    EXPECT_LT(detail(**cells, "cells with leaves of no special kind"), 0.5 * detail(**cells, "boundary cells"));
+  }
+}
+
 // Of some leaves a cell asks for a part of the ray's line alone, and they are cut where that pays.
 TEST(Cells, AskLeavesForPartsOfTheLine) {
   Outline cross{{{}}};

@@ -29,6 +29,7 @@ struct CellTree : CellStore {
     alignas(32) std::array<double, 4> low{}, high{}, center{};
   } frame;
   CellScale scale;
+  double margin = 0;  ///< enclosure_margin()
   HugePageVector<WideNode> nodes;
   LeafRecords records;
   PlacedShapes shapes;

@@ -266,7 +266,11 @@ class ExactCell {
     if (lists.size() < leaves.size()) lists.resize(leaves.size());
     const double near = 8 * ray_.resolution();
     const LineWindow window{t_in - near, t_out + near};
+    const Vec3& direction = ray_.query->ray.direction;
+    const Vec3 inverse{1 / direction.x, 1 / direction.y, 1 / direction.z};
     for (std::size_t i = 0; i < leaves.size(); ++i) {
+      lists[i].clear();
+      if (!MayReach(tree_[leaves[i]].bounds, inverse, window)) continue;
       const Spans& known = FindSpans(leaves[i], start_face(*ray_.query, leaves[i]), window);
       for (const Crossing& c : known) {
         const bool matters = window.meets(c.t - c.bound, c.t + c.bound);
@@ -294,6 +298,20 @@ class ExactCell {
       return Outcome::met;
     }
     return Outcome::passed;
+  }
+
+  /// Whether the ray may come to a leaf with these bounds within a window.
+  bool MayReach(const Box3& bounds, const Vec3& inverse, const LineWindow& window) const {
+    const Vec3& origin = ray_.query->ray.origin;
+    double first = window.begin, last = window.end;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double low = (bounds.lower[axis] - cells_.margin - origin[axis]) * inverse[axis];
+      const double high = (bounds.upper[axis] + cells_.margin - origin[axis]) * inverse[axis];
+      // Where one is no number the origin lies in that plane, which the ray runs along.
+      first = std::max(first, std::min(low, high));
+      last = std::min(last, std::max(low, high));
+    }
+    return first <= last;
   }
 
   /// Leaves whose spans() were asked since the last call.
