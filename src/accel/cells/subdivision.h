@@ -15,8 +15,8 @@ namespace tenon::cells {
 
 /// How much work goes into the subdivision.
 struct BuildQuality {
-  /// Splits that do not pay by themselves are tried so many times in a row (and up to four times more, once for each
-  /// doubling of what the cell costs), and taken back where what follows does not pay either.
+  /// Splits that do not pay by themselves are tried so many times in a row (and once more for each doubling of what the
+  /// cell costs), and taken back where what follows does not pay either.
   int look_ahead = 2;
   /// Cells are split until they are this small against the smallest of their leaves.
   double finest = 1.0 / 8;

@@ -69,9 +69,10 @@ bool TabledSubdivider::worth_splitting(const Part& part) const {
   const bool may_gain = std::popcount(part.rest.leaves) > 1 || part.may_cost_less;
   if (!may_gain || result_->store.cells.size() > most_cells_) return false;
   if (part.depth >= input_.limits.depth) return false;
-  // What costs twice as much is worth one more try, up to a point.
+  // What costs twice as much is worth one more try; where parts are cheaper the smaller they are, up to a point.
   constexpr int most_more = 4;
-  const int more = std::min(std::ilogb(search_.cell_cost(part.rest.leaves)), most_more);
+  int more = std::ilogb(search_.cell_cost(part.rest.leaves));
+  if (part.may_cost_less) more = std::min(more, most_more);
   if (part.unpaid >= input_.quality.look_ahead + more) return false;
   double smallest = std::numeric_limits<double>::infinity();
   for_each_bit(part.rest.leaves, [&](std::size_t i) { smallest = std::min(smallest, search_.leaf(i).extent); });
