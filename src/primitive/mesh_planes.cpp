@@ -134,9 +134,11 @@ PlanarPart Mesh::planes_within(const LocalBox& box, std::vector<Plane>& planes) 
   // Whether the mesh means it so, a place on either side tells: where parts overlap it may not.
   Vec3 below = box.center, above = box.center;
   for (int i = 0; i < 8; ++i) {
-    const Vec3 p = 0.5 * (box.center + box.corner(i));
-    if (highest(planes, p) < highest(planes, below)) below = p;
-    if (highest(planes, p) > highest(planes, above)) above = p;
+    const Vec3 corner = box.corner(i), halfway = 0.5 * (box.center + corner);
+    for (const Vec3& p : {halfway, corner}) {
+      if (highest(planes, p) < highest(planes, below)) below = p;
+    }
+    if (highest(planes, corner) > highest(planes, above)) above = corner;
   }
   if (!(highest(planes, below) < -2 * slip && highest(planes, above) > 2 * slip)) return PlanarPart::unknown;
   const bool is_solid_below = found == PlanarPart::below_all;
