@@ -112,6 +112,18 @@ inline bool clip_slab(const LocalRay& ray, int axis, double low, double high, st
                          ray.on_face == static_cast<int>(low_face), chord);
 }
 
+/// Cuts an interval of t with value + t slope <= 0, but for what rounds. @return whether something is left
+inline bool clip_interval(double value, double slope, double& begin, double& end) {
+  if (slope > 0) {
+    end = std::min(end, -value / slope);
+  } else if (slope < 0) {
+    begin = std::max(begin, -value / slope);
+  } else if (value > 0) {
+    return false;
+  }
+  return begin <= end;
+}
+
 /// A crossing at the end of a chord. One at infinity has no error; the last factor covers the roundings of the bound
 /// itself.
 inline Crossing crossing_at(const End& end, bool entering) {

@@ -35,15 +35,18 @@ Field(std::string_view, Unit, T P::*, std::string_view) -> Field<P, T>;
 ///   spans(ray, out)        appends all crossings, sorted (Crossing, LocalRay)
 ///   classify(box)          conservative: may say straddles, is never wrong
 ///   normal(point, face)    outward, any length but zero
-///   spans_within(ray, window, out)   if any: the same of the crossings whose intervals reach into a window of the line;
-///                          others may be missing, or be made up, as long as inside and outside are right within
-///   window_share           with spans_within(): the share of spans() that it costs in the smallest of windows
+///   spans_within(ray, window, out)   if any: the same of the crossings whose intervals reach into a window of the
+///   line,
+///                          unless they cannot be told from others beyond it; others may be missing, or be made up, as
+///                          long as inside and outside are right within
+///   window_share()         with spans_within(): the share of spans() that it costs in the smallest of windows
+///   tells_from_start       with spans_within(): a ray of the world needs no more than the window from 0 on
 ///   crossing_near(ray, t, near, entering)   if any: the crossing of spans() within `near` of t, if it is certainly the
 ///                          only one within twice that; nothing where that takes the whole of spans() to tell
-///   planes_within(box, planes)   if any: how some planes, with normals of length 1, make up the part of the solid within
-///                          the box (PlanarPart)
-///   walls_within(box, most, part)   if any: the solid within the box as a swept outline (WallPart); false where more walls than
-///                          `most` go through it, or that is not certain
+///   planes_within(box, planes)   if any: how some planes, with normals of length 1, make up the part of the solid
+///                          within the box (PlanarPart)
+///   walls_within(box, most, part)   if any: the solid within the box as a swept outline (WallPart); false where more
+///                          walls than `most` go through it, or that is not certain
 template <class P>
 concept SolidPrimitive = std::semiregular<P> &&
     requires(const P& p, const LocalRay& ray, Spans& out, const LocalBox& box, const Vec3& v, std::uint32_t face) {

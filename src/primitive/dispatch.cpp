@@ -53,7 +53,13 @@ void spans(const PrimitiveStore& store, PrimitiveId id, const LocalRay& ray, Spa
 
 void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const Ray& ray, double tolerance,
            int on_face, Spans& out) {
-  spans_within(store, id, placement.to_local(ray, tolerance, on_face), {0, Box3::inf}, out);
+  const bool tells_from_start = visit(store.lists(), id, [](const auto& primitive) {
+    return requires {
+      primitive.tells_from_start;
+    };
+  });
+  const LineWindow window{tells_from_start ? 0 : -Box3::inf, Box3::inf};
+  spans_within(store, id, placement.to_local(ray, tolerance, on_face), window, out);
 }
 
 void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const LocalRay& ray, Spans& out) {
@@ -73,7 +79,7 @@ void spans_within(const PrimitiveStore& store, PrimitiveId id, const Placement::
 
 double window_share(const PrimitiveStore& store, PrimitiveId id) {
   return visit(store.lists(), id, [](const auto& primitive) {
-    if constexpr (requires { primitive.window_share; }) return primitive.window_share;
+    if constexpr (requires { primitive.window_share(); }) return primitive.window_share();
     return 1.0;
   });
 }

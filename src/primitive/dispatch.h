@@ -16,14 +16,17 @@ namespace tenon {
 /// Appends all crossings of the ray's whole line with the primitive, sorted by t, to `out`. See Crossing and LocalRay.
 void spans(const PrimitiveStore& store, PrimitiveId id, const LocalRay& ray, Spans& out);
 
-/// The same for a ray of the world from t = 0 on (spans_within()).
+/// The same for a ray of the world. Of what lies before t = 0 a primitive with `tells_from_start` tells but whether the
+/// ray starts inside.
 void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const Ray& ray, double tolerance,
            int on_face, Spans& out);
-/// The same for a ray of the frame that the placement is in, which may be the local frame of something larger.
+/// The crossings of the whole line for a ray of the frame that the placement is in, which may be the local frame of
+/// something larger.
 void spans(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const LocalRay& ray, Spans& out);
 
-/// The crossings of spans() whose intervals reach into a window, as spans() has them. Of others some may be missing,
-/// and some that there are not may stand for them, but what is inside of the window and what is outside is right.
+/// The crossings of spans() whose intervals reach into a window, as spans() has them, but for those that cannot be told
+/// from others beyond its ends. Of others some may be missing, and some that there are not may stand for them; what is
+/// inside of the window and what is outside is right.
 /// @param mapped  the ray in the primitive's frame
 /// @param window  of the ray that was mapped
 void spans_within(const PrimitiveStore& store, PrimitiveId id, const Placement::MappedRay& mapped,

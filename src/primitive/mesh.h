@@ -25,7 +25,6 @@ class Mesh {
   static constexpr std::string_view doc = "The solid inside a closed mesh of triangles, or the surface of an open one.";
   static constexpr bool bounded = true;
   static constexpr double relative_cost = 12;
-  static constexpr double window_share = 0.4;
   static constexpr auto fields() {
     return std::tuple{Field{"mesh", Unit::none, &Mesh::mesh, "vertices and triangles"},
                       Field{"hull", Unit::none, &Mesh::hull, "the surface alone, which has no inside"}};
@@ -42,6 +41,10 @@ class Mesh {
   /// The same, but for crossings beyond the window: an entrance at -inf, or an exit at +inf, may stand for all of them
   /// where the line is inside there.
   void spans_within(const LocalRay& ray, const LineWindow& window, Spans& out) const;
+  /// Where no place away from all triangles is known, a window is no help. By trial on OpenSCAD's examples.
+  double window_share() const { return index_->clear.bytes() == 0 ? 1 : 0.4; }
+  /// A ray that starts on a face is asked for from there on.
+  static constexpr bool tells_from_start = true;
   Region classify(const LocalBox& box) const;
   PlanarPart planes_within(const LocalBox& box, std::vector<Plane>& planes) const;
   /// Between the corners' normals where the mesh has them.

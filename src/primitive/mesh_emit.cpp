@@ -231,7 +231,7 @@ bool all_finite(const Spans& out) {
 // Whether the line meets a candidate within a window, at whose ends the boxes of all triangles are away. If its
 // interval does not tell, its box does, which the line passes on one side of an end.
 bool lies_within(const MeshLine& line, const TriangleMesh& mesh, const LineWindow& window, MeshCandidate& candidate) {
-  if (candidate.lo > window.begin && candidate.hi < window.end) return true;
+  if (!(candidate.lo <= window.begin) && !(candidate.hi >= window.end)) return true;
   if (!window.meets(candidate.lo, candidate.hi)) return false;
   const auto [a, b, c] = mesh.corners(candidate.triangle);
   double enter, leave;

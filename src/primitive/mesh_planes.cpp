@@ -21,17 +21,23 @@ class ClippedTriangle {
       cut(-n, reach - dot(n, box.center));
     }
   }
+  /// Rounding has made more corners of it than a convex polygon can have.
+  bool is_broken() const { return is_broken_; }
   const Vec3* begin() const { return points_.data(); }
   const Vec3* end() const { return points_.data() + count_; }
 
  private:
-  // Each of six planes adds one corner at most.
-  using Points = std::array<Vec3, 9>;
+  // Each of six planes adds one corner at most, but for what rounds.
+  using Points = std::array<Vec3, 12>;
 
   void cut(const Vec3& n, double d) {
     Points kept;
     std::size_t count = 0;
     for (std::size_t i = 0; i < count_; ++i) {
+      if (count + 2 > kept.size()) {
+        is_broken_ = true;
+        break;
+      }
       const Vec3 &p = points_[i], &q = points_[(i + 1) % count_];
       const double a = dot(n, p) - d, b = dot(n, q) - d;
       if (a <= 0) kept[count++] = p;
@@ -43,6 +49,7 @@ class ClippedTriangle {
 
   Points points_;
   std::size_t count_ = 0;
+  bool is_broken_ = false;
 };
 
 LocalBox enlarged(const LocalBox& box, double factor) {
@@ -104,6 +111,7 @@ PlanarPart Mesh::planes_within(const LocalBox& box, std::vector<Plane>& planes) 
   for (auto facet = facets.begin(); facet != end; ++facet) {
     const std::array<Vec3, 3> corners = mesh->corners(facet->triangle);
     const ClippedTriangle piece(corners, part);
+    if (piece.is_broken()) return PlanarPart::unknown;
     if (piece.begin() == piece.end()) continue;
     pieces.push_back(piece);
     const Vec3 normal = 1 / facet->area * flat_normal(facet->triangle);
@@ -131,20 +139,23 @@ PlanarPart Mesh::planes_within(const LocalBox& box, std::vector<Plane>& planes) 
     if (!all_below()) return PlanarPart::unknown;
     found = PlanarPart::above_any;
   }
-  // Whether the mesh means it so, a place on either side tells: where parts overlap it may not.
-  Vec3 below = box.center, above = box.center;
+  // Whether the mesh means it so, a place below all planes tells, and one in each part beyond: where parts of it
+  // overlap, or lie on one another, it may not. What of the box is beyond a plane has a corner of the box.
+  const Region solid_below = found == PlanarPart::below_all ? Region::inside : Region::outside;
+  const Region solid_above = found == PlanarPart::below_all ? Region::outside : Region::inside;
+  const auto is_at = [&](const Vec3& p, Region region) { return classify({p, {}, {}, {p, p}}) == region; };
+  Vec3 below = box.center;
+  bool is_anything_above = false;
   for (int i = 0; i < 8; ++i) {
     const Vec3 corner = box.corner(i), halfway = 0.5 * (box.center + corner);
     for (const Vec3& p : {halfway, corner}) {
       if (highest(planes, p) < highest(planes, below)) below = p;
     }
-    if (highest(planes, corner) > highest(planes, above)) above = corner;
+    if (!(highest(planes, corner) > 2 * slip)) continue;
+    is_anything_above = true;
+    if (!is_at(corner, solid_above)) return PlanarPart::unknown;
   }
-  if (!(highest(planes, below) < -2 * slip && highest(planes, above) > 2 * slip)) return PlanarPart::unknown;
-  const bool is_solid_below = found == PlanarPart::below_all;
-  const auto is_at = [&](const Vec3& p, Region region) { return classify({p, {}, {}, {p, p}}) == region; };
-  const bool is_meant = is_at(below, is_solid_below ? Region::inside : Region::outside) &&
-                        is_at(above, is_solid_below ? Region::outside : Region::inside);
+  const bool is_meant = is_anything_above && highest(planes, below) < -2 * slip && is_at(below, solid_below);
   return is_meant ? found : PlanarPart::unknown;
 }
 

@@ -26,7 +26,6 @@ class Prism {
   static constexpr std::string_view doc = "An outline of segments and arcs, swept along z.";
   static constexpr bool bounded = true;
   static constexpr double relative_cost = 7;
-  static constexpr double window_share = 0.15;
   static constexpr auto fields() {
     return std::tuple{
         Field{"outline", Unit::length, &Prism::outline, "closed loops of corners [x, y] or [x, y, bulge]"},
@@ -49,6 +48,7 @@ class Prism {
   }
   void spans(const LocalRay& ray, Spans& out) const { spans_within(ray, {}, out); }
   void spans_within(const LocalRay& ray, const LineWindow& window, Spans& out) const;
+  static double window_share() { return 0.15; }
   std::optional<Crossing> crossing_near(const LocalRay& ray, double t, double near, bool entering) const;
   Region classify(const LocalBox& box) const;
   std::uint32_t face_count() const { return walls + 2 * static_cast<std::uint32_t>(edges_.edges().size()); }

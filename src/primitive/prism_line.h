@@ -76,10 +76,10 @@ class Prism::Line {
   bool clip_to_box(const Vec2& lower, const Vec2& upper, double& begin, double& end) const {
     begin = part_.begin;
     end = part_.end;
-    return clip(o_.x - upper.x * s_ - pad_.x, d_.x - upper.x * s_slope_, begin, end) &&
-           clip(lower.x * s_ - o_.x - pad_.x, lower.x * s_slope_ - d_.x, begin, end) &&
-           clip(o_.y - upper.y * s_ - pad_.y, d_.y - upper.y * s_slope_, begin, end) &&
-           clip(lower.y * s_ - o_.y - pad_.y, lower.y * s_slope_ - d_.y, begin, end);
+    return clip_interval(o_.x - upper.x * s_ - pad_.x, d_.x - upper.x * s_slope_, begin, end) &&
+           clip_interval(lower.x * s_ - o_.x - pad_.x, lower.x * s_slope_ - d_.x, begin, end) &&
+           clip_interval(o_.y - upper.y * s_ - pad_.y, d_.y - upper.y * s_slope_, begin, end) &&
+           clip_interval(lower.y * s_ - o_.y - pad_.y, lower.y * s_slope_ - d_.y, begin, end);
   }
 
   /// Finds where the line may cross edges within a window.
@@ -151,18 +151,6 @@ class Prism::Line {
     if (s_slope_ == 0 && s_slope_error_ == 0) return s_ - s_error_;
     const auto least = [this](double t) { return s_ + t * s_slope_ - s_error_ - std::fabs(t) * s_slope_error_; };
     return std::min(least(part_.begin), least(part_.end));
-  }
-
-  // value + t slope <= 0
-  static bool clip(double value, double slope, double& begin, double& end) {
-    if (slope > 0) {
-      end = std::min(end, -value / slope);
-    } else if (slope < 0) {
-      begin = std::max(begin, -value / slope);
-    } else if (value > 0) {
-      return false;
-    }
-    return begin <= end;
   }
 
   void add(EdgeCrossing crossing, double begin, double end, std::vector<EdgeCrossing>& out) const {

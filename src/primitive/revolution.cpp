@@ -68,17 +68,8 @@ class Revolution::Line {
 
   /// The part of [begin, end] that may be in the ring which a box of the half-plane makes. False when there is none.
   bool clip_to_box(const Vec2& lower, const Vec2& upper, double& begin, double& end) const {
-    const auto clip = [&](double value, double slope) {
-      if (slope > 0) {
-        end = std::min(end, -value / slope);
-      } else if (slope < 0) {
-        begin = std::max(begin, -value / slope);
-      } else if (value > 0) {
-        return false;
-      }
-      return begin <= end;
-    };
-    if (!clip(z_ - upper.y - pad_, z_slope_) || !clip(lower.y - z_ - pad_, -z_slope_)) return false;
+    if (!clip_interval(z_ - upper.y - pad_, z_slope_, begin, end)) return false;
+    if (!clip_interval(lower.y - z_ - pad_, -z_slope_, begin, end)) return false;
     const double outer = upper.x + pad_;
     if (nearest_ > outer) return false;
     const double half = a_ > 0 ? std::sqrt((outer - nearest_) * (outer + nearest_) / a_) : HUGE_VAL;
@@ -347,7 +338,7 @@ void Revolution::spans_within(const LocalRay& ray, const LineWindow& window, Spa
   edges_.visit_edges(
       [&](const Vec2& lower, const Vec2& upper) {
         double begin = line.begin(), end = line.end();
-        return line.clip_to_box(lower, upper, begin, end) && window.meets(begin, end);
+        return line.clip_to_box(lower, upper, begin, end);
       },
       cross_edge);
   std::erase_if(crossings, [&](const EdgeCrossing& c) { return !window.meets(c.lo, c.hi); });

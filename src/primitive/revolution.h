@@ -19,7 +19,6 @@ class Revolution {
   static constexpr std::string_view doc = "An outline of segments and arcs, turned around z.";
   static constexpr bool bounded = true;
   static constexpr double relative_cost = 17;
-  static constexpr double window_share = 0.3;
   static constexpr auto fields() {
     return std::tuple{Field{"outline", Unit::length, &Revolution::outline,
                             "closed loops of corners [distance from z, z] or [distance from z, z, bulge]"}};
@@ -35,6 +34,7 @@ class Revolution {
   /// Faces: two an edge (face_of_edge).
   void spans(const LocalRay& ray, Spans& out) const { spans_within(ray, {}, out); }
   void spans_within(const LocalRay& ray, const LineWindow& window, Spans& out) const;
+  static double window_share() { return 0.3; }
   Region classify(const LocalBox& box) const;
   std::uint32_t face_count() const { return 2 * static_cast<std::uint32_t>(edges_.edges().size()); }
   Vec3 normal(const Vec3& point, std::uint32_t face) const;

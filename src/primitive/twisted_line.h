@@ -39,7 +39,7 @@ class TwistedLine {
 
   /// Finds the crossings with all edges within a window.
   /// @param whole  where they may be at all: halved in the same way whatever the window, so that crossings have the
-  ///               same bits
+  ///               same bits, unless the line runs along a wall for longer than there are looks for
   void cross_edges(const OutlineEdges& edges, const Interval& whole, const LineWindow& window,
                    std::vector<EdgeCrossing>& out);
 

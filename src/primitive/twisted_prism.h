@@ -27,7 +27,6 @@ class TwistedPrism {
       "An outline of segments and arcs, swept along z while it turns and is scaled.";
   static constexpr bool bounded = true;
   static constexpr double relative_cost = 60;
-  static constexpr double window_share = 0.1;
   static constexpr auto fields() {
     return std::tuple{
         Field{"outline", Unit::length, &TwistedPrism::outline, "closed loops of corners [x, y] or [x, y, bulge]"},
@@ -49,6 +48,7 @@ class TwistedPrism {
   double support(const Vec3& n) const;
   void spans(const LocalRay& ray, Spans& out) const { spans_within(ray, {}, out); }
   void spans_within(const LocalRay& ray, const LineWindow& window, Spans& out) const;
+  static double window_share() { return 0.1; }
   Region classify(const LocalBox& box) const;
   std::uint32_t face_count() const { return walls + 2 * static_cast<std::uint32_t>(edges_.edges().size()); }
   Vec3 normal(const Vec3& point, std::uint32_t face) const;

@@ -33,6 +33,18 @@ TriangleMesh random_mesh(Random& random) {
   }
 }
 
+// Two parts that overlap, and whose ends lie in one plane: between the planes of one the mesh winds twice, and once
+// beyond.
+TEST(MeshPlanes, ArePartsOfTheUnionAlone) {
+  Mesh solid;
+  solid.mesh = meshes::share(joined(meshes::box({0, -1, -1}, {1, 1, 1}), meshes::box({0, -1, -1}, {5, 1, 1})));
+  solid.prepare();
+  const Vec3 low{-3, -0.5, -0.5}, high{1.5, 0.5, 0.5};
+  const auto placement = Placement::create(BoundedAffine3::elementary(Affine3::rotate({0, 0, 0})), {0, 0, 0});
+  std::vector<Plane> planes;
+  EXPECT_EQ(solid.planes_within(placement->to_local(Box3{low, high}), planes), PlanarPart::unknown);
+}
+
 // Where a mesh is said to be what lies below some planes, or all but that, it is.
 TEST(MeshPlanes, HoldTheMeshWithinTheirBox) {
   Random random(95);

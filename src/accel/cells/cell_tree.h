@@ -29,7 +29,8 @@ struct CellTree : CellStore {
     alignas(32) std::array<double, 4> low{}, high{}, center{};
   } frame;
   CellScale scale;
-  double margin = 0;  ///< enclosure_margin()
+  /// enclosure_margin(), and in a part that is stored once what the whole scene needs there.
+  double margin = 0;
   HugePageVector<WideNode> nodes;
   LeafRecords records;
   PlacedShapes shapes;

@@ -307,7 +307,8 @@ class ExactCell {
     for (int axis = 0; axis < 3; ++axis) {
       const double low = (bounds.lower[axis] - cells_.margin - origin[axis]) * inverse[axis];
       const double high = (bounds.upper[axis] + cells_.margin - origin[axis]) * inverse[axis];
-      // Where one is no number the origin lies in that plane, which the ray runs along.
+      // The ray runs along a plane that its origin lies in.
+      if (std::isnan(low) || std::isnan(high)) continue;
       first = std::max(first, std::min(low, high));
       last = std::min(last, std::max(low, high));
     }

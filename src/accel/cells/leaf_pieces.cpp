@@ -1,5 +1,6 @@
 #include "accel/cells/leaf_pieces.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "accel/cells/cell_cost.h"

@@ -27,7 +27,7 @@ class LeafPieces {
   RecordKind kind() const { return kind_; }
   /// A box around its surface, within the box.
   Box3 surface() const;
-  /// CellCost::of_leaf.
+  /// What following it costs (CellCost).
   double price() const;
   /// The numbers of its record.
   const std::vector<double>& values() {
