@@ -139,6 +139,18 @@ TEST(Cells, FollowMeshesByTheirPlanes) {
   }
 }
 
+// So small that windows are no help, and alone, so that nothing but its planes gains by a cut.
+TEST(Cells, CutAMeshOfFewTrianglesByItself) {
+  SceneBuilder b;
+  const TriangleMesh pebble = meshes::star(1, [](const Vec3& v) { return 1 + 0.3 * v.x; });
+  const CsgTree tree = b.tree(b.rotate({20, 30, 0}, b.primitive("mesh", {meshes::share(pebble), false})));
+  expect_same_answers(tree, "cells", 200);
+  const auto cells = build_accelerator("cells", tree);
+  const double all = detail(**cells, "boundary cells");
+  EXPECT_GT(all, 10);
+  EXPECT_LT(detail(**cells, "cells with leaves of no special kind"), 0.5 * all);
+}
+
 // Of some leaves a cell asks for a part of the ray's line alone, and they are cut where that pays.
 TEST(Cells, AskLeavesForPartsOfTheLine) {
   Outline cross{{{}}};

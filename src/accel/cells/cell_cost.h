@@ -21,6 +21,7 @@ struct CellCost {
     return (visit + leaves_cost) * (leaves <= Cell::most_tabled ? 1 : untabled_factor);
   }
 
+  /// Of a swept outline in a cell: the caps and the way to the place that is known, and each wall.
   static double of_outline(std::size_t walls) { return 3 + 1.2 * static_cast<double>(walls); }
 
   /// @param spans_cost  of the primitive's spans() (dispatch.h), for leaves without a record

@@ -11,7 +11,7 @@ namespace tenon::cells {
 CellTree CellTree::build(const CsgTree& tree, const Box3& box, const CellScale& scale, const BuildSettings& settings) {
   CellTree result;
   result.scale = scale;
-  result.margin = std::max(enclosure_margin(tree), scale.resolution);
+  result.margin = enclosure_margin(tree);
   result.ranks = OwnerRanks(tree);
   result.box = grown(box, 4 * result.scale.growth);
   result.center = result.box.center();

@@ -29,8 +29,7 @@ struct CellTree : CellStore {
     alignas(32) std::array<double, 4> low{}, high{}, center{};
   } frame;
   CellScale scale;
-  /// enclosure_margin(), and in a part that is stored once what the whole scene needs there.
-  double margin = 0;
+  double margin = 0;  ///< enclosure_margin(); rays in the frame of an instance ask for no leaf of its cells by it
   HugePageVector<WideNode> nodes;
   LeafRecords records;
   PlacedShapes shapes;

@@ -99,6 +99,7 @@ TabledSubdivider::Part TabledSubdivider::make_part(const Box3& box, const Folded
       hoped += pieces_.price();
       return;
     }
+    may_cost_less |= leaf.has_pieces;
     around = hull(around, surface);
     const bool is_unknown = input_.records.of_leaf[leaf.leaf.get()].kind() == RecordKind::general;
     followed += static_cast<double>(leaf.price);
