@@ -189,21 +189,23 @@ double distance_to_certainty(const F& f, double t, double span) {
 template <class F, int Capacity>
 void find_bounded_roots(const F& f, std::span<const double> splits, ShortList<CrossingRoot, Capacity>& roots) {
   const double begin = splits.front(), end = splits.back();
-  const auto add = [&](double t, bool rising) {
+  // The signs are those of f before and behind.
+  const auto interval_around = [&](double t, bool negative_before, bool negative_behind) {
     const double distance = distance_to_certainty(f, t, end - begin);
     CrossingRoot root;
     root.t = t;
-    root.lo = find_certain_place(f, t, distance, -1, begin, rising, splits);
-    root.hi = find_certain_place(f, t, distance, 1, end, !rising, splits);
-    root.rising = rising;
-    roots.push_back(root);
+    root.lo = find_certain_place(f, t, distance, -1, begin, negative_before, splits);
+    root.hi = find_certain_place(f, t, distance, 1, end, negative_behind, splits);
+    root.rising = negative_before;
+    return root;
   };
 
   double value = f.value(splits[0]);
   for (std::size_t i = 0; i + 1 < splits.size(); ++i) {
     const double next = f.value(splits[i + 1]);
     if ((value < 0) != (next < 0)) {
-      add(find_sign_change(f, splits[i], splits[i + 1], value, next), value < 0);
+      const double t = find_sign_change(f, splits[i], splits[i + 1], value, next);
+      roots.push_back(interval_around(t, value < 0, value >= 0));
     }
     // A turning point is itself known only as well as the slope vanishes there.
     if (i + 2 < splits.size()) {
@@ -211,8 +213,10 @@ void find_bounded_roots(const F& f, std::span<const double> splits, ShortList<Cr
       const double shift = std::min(slope / std::fabs(f.half_curvature(turn)), end - begin);
       const bool alone = (value < 0) == (next < 0) && (f.value(splits[i + 2]) < 0) == (next < 0);
       if (alone && std::fabs(next) <= f.error(turn) + slope * shift) {
-        add(turn, next < 0);
-        add(turn, next >= 0);
+        CrossingRoot root = interval_around(turn, next < 0, next < 0);
+        roots.push_back(root);
+        root.rising = !root.rising;
+        roots.push_back(root);
       }
     }
     value = next;

@@ -1,7 +1,5 @@
 #include "primitive/outline_edges.h"
 
-#include <numeric>
-
 #include "primitive/arc.h"
 #include "primitive/check.h"
 #include "tenon/math/rounding.h"
@@ -60,10 +58,12 @@ OutlineEdges::OutlineEdges(const Outline& outline) {
       edges_.push_back(edge);
     }
   }
-  if (edges_.empty()) return;
-  order_.resize(edges_.size());
-  std::iota(order_.begin(), order_.end(), 0);
-  build(0, 0, static_cast<std::uint32_t>(edges_.size()));
+  // A corner that is given twice has an edge of no length, which bounds nothing.
+  for (std::uint32_t i = 0; i < edges_.size(); ++i) {
+    if (edges_[i].from != edges_[i].to) order_.push_back(i);
+  }
+  if (order_.empty()) return;
+  build(0, 0, static_cast<std::uint32_t>(order_.size()));
   find_extreme_points();
 }
 

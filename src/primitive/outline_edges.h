@@ -68,7 +68,7 @@ class OutlineEdges {
   /// touches(lower, upper), until it returns false.
   template <class Touches, class Visit>
   bool visit_edges(const Touches& touches, const Visit& visit) const {
-    if (edges_.empty()) return true;
+    if (order_.empty()) return true;
     std::uint32_t stack[64];
     int size = 0;
     stack[size++] = 0;
@@ -98,8 +98,8 @@ class OutlineEdges {
   void build(std::size_t node, std::uint32_t first, std::uint32_t count);
   void find_extreme_points();
 
-  std::vector<OutlineEdge> edges_;  // in the order of the outline
-  std::vector<std::uint32_t> order_;
+  std::vector<OutlineEdge> edges_;    // in the order of the outline
+  std::vector<std::uint32_t> order_;  // of those with a length
   std::vector<Node> nodes_ = std::vector<Node>(1);
   std::vector<Vec2> extreme_points_;  // the convex hull of the corners
   std::vector<std::uint32_t> round_;  // arcs that may reach beyond it

@@ -181,7 +181,7 @@ PlanarPart Prism::planes_within(const LocalBox& box, std::vector<Plane>& planes)
   return wedge->is_solid ? PlanarPart::below_all : PlanarPart::above_any;
 }
 
-bool Prism::walls_within(const LocalBox& box, std::size_t most, WallPart& part) const {
+bool Prism::walls_within(const LocalBox& box, std::size_t most, SweptPart& part) const {
   part.walls.clear();
   part.low = low();
   part.high = high();
@@ -199,21 +199,10 @@ bool Prism::walls_within(const LocalBox& box, std::size_t most, WallPart& part) 
     return true;
   });
   if (!are_few) return false;
-  // Of a few places, the one that is farthest from all walls.
-  double clearance = -1;
-  for (int i = -1; i < 8; ++i) {
-    const Vec3 p = i < 0 ? box.center : 0.5 * (box.center + box.corner(i));
+  part.choose_place(box, edges_, [&](const Vec3& p) {
     const double s = scale == 1 ? 1 : scale_at(p.z);
-    const Vec2 place{p.x / s, p.y / s};
-    double nearest = HUGE_VAL;
-    for (const OutlineEdge& wall : part.walls) {
-      nearest = std::min(nearest, std::fabs(wall.distance(place - wall.from)));
-    }
-    if (nearest <= clearance) continue;
-    clearance = nearest;
-    part.place = place;
-  }
-  part.is_inside = edges_.contains(part.place);
+    return Vec2{p.x / s, p.y / s};
+  });
   return true;
 }
 

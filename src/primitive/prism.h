@@ -54,7 +54,7 @@ class Prism {
   std::uint32_t face_count() const { return walls + 2 * static_cast<std::uint32_t>(edges_.edges().size()); }
   Vec3 normal(const Vec3& point, std::uint32_t face) const;
   PlanarPart planes_within(const LocalBox& box, std::vector<Plane>& planes) const;
-  bool walls_within(const LocalBox& box, std::size_t most, WallPart& part) const;
+  bool walls_within(const LocalBox& box, std::size_t most, SweptPart& part) const;
 
  private:
   class Line;

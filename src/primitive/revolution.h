@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -7,6 +8,7 @@
 #include "primitive/concept.h"
 #include "primitive/edge_crossings.h"
 #include "primitive/outline_edges.h"
+#include "primitive/wall_part.h"
 
 namespace tenon {
 
@@ -35,14 +37,15 @@ class Revolution {
   void spans(const LocalRay& ray, Spans& out) const { spans_within(ray, {}, out); }
   void spans_within(const LocalRay& ray, const LineWindow& window, Spans& out) const;
   static double window_share() { return 0.3; }
+  std::optional<Crossing> crossing_near(const LocalRay& ray, double t, double near, bool entering) const;
   Region classify(const LocalBox& box) const;
   std::uint32_t face_count() const { return 2 * static_cast<std::uint32_t>(edges_.edges().size()); }
   Vec3 normal(const Vec3& point, std::uint32_t face) const;
+  bool walls_within(const LocalBox& box, std::size_t most, RevolvedPart& part) const;
 
  private:
   class Line;
-  class Profile;
-  class DeflatedProfile;
+  class MeridianBox;
 
   OutlineEdges edges_;
 };

@@ -1,23 +1,47 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
+#include "primitive/local_box.h"
 #include "primitive/outline_edges.h"
 
 namespace tenon {
 
-/// A swept outline within a box: the walls that go through the box, and what they bound.
-///
-/// A point p lies over (p.x, p.y) / (scale + scale_slope p.z) of the outline's plane. Between the caps a point of the
-/// box is inside if the straight way to there from `place` crosses an even number of walls and the place is inside, or
-/// an odd number and it is not. All of that way lies over the box, so no other wall is in it.
+/// What an outline comes to in the part of its plane that a box lies over: the walls there, and a place of which is
+/// known whether it is inside. So is any other of that part, if the straight way from there to `place` crosses an even
+/// number of walls and the place is inside, or an odd number and it is not.
 struct WallPart {
   std::vector<OutlineEdge> walls;
+  Vec2 place;
+  bool is_inside = false;
+
+  /// Chooses the place, of a few of the box the one that is farthest from all walls.
+  /// @param place_under  of the outline's plane, of a point of the box
+  template <class PlaceUnder>
+  void choose_place(const LocalBox& box, const OutlineEdges& edges, const PlaceUnder& place_under) {
+    double clearance = -1;
+    for (int i = -1; i < 8; ++i) {
+      const Vec2 at = place_under(i < 0 ? box.center : 0.5 * (box.center + box.corner(i)));
+      double nearest = HUGE_VAL;
+      for (const OutlineEdge& wall : walls) nearest = std::min(nearest, std::fabs(wall.distance(at - wall.from)));
+      if (nearest <= clearance) continue;
+      clearance = nearest;
+      place = at;
+    }
+    is_inside = edges.contains(place);
+  }
+};
+
+/// Of a swept outline: a point p lies over (p.x, p.y) / (scale + scale_slope p.z).
+struct SweptPart : WallPart {
   double low = 0, high = 0;  ///< z of the caps
   double scale = 1, scale_slope = 0;
   double least_scale = 1, most_scale = 1;  ///< over the box; positive
-  Vec2 place;                              ///< of the outline's plane
-  bool is_inside = false;
 };
+
+/// Of an outline that is turned around z: a point lies over (its distance from z, z).
+struct RevolvedPart : WallPart {};
 
 }  // namespace tenon

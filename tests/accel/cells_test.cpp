@@ -101,6 +101,47 @@ TEST(Cells, FollowPrismsByWhatTheyComeTo) {
   }
 }
 
+// Revolutions come to a few walls in most cells: cones, cylinders, planes across the axis, parts of balls and rings,
+// from within and outside, and faces that lie in one another's.
+TEST(Cells, FollowRevolutionsByTheirWalls) {
+  Draw draw(43);
+  for (int round = 0; round < 9; ++round) {
+    SCOPED_TRACE(round);
+    const bool has_arcs = round >= 3;
+    SceneBuilder b;
+    const auto turned = [&](double inner, double size) {
+      std::vector<OutlineCorner> corners;
+      const int count = 7 + round;
+      for (int i = 0; i < count; ++i) {
+        const double r = size * draw.real(0.5, 1), angle = 360.0 * i / count;
+        corners.push_back({std::max(inner + size + r * cos_degrees(angle), 0.0), r * sin_degrees(angle), 0});
+        // On a coarse lattice edges run along the axis and across it.
+        OutlineCorner& corner = corners.back();
+        if (round % 3 == 1) corner = {std::round(4 * corner.x) / 4, std::round(4 * corner.y) / 4, 0};
+      }
+      // Arcs bulge by half their chord at most, and may not reach over the axis.
+      for (std::size_t i = 0; has_arcs && i < corners.size(); i += 2) {
+        const OutlineCorner &from = corners[i], &to = corners[(i + 1) % corners.size()];
+        const double reach = 0.5 * std::hypot(to.x - from.x, to.y - from.y);
+        if (std::min(from.x, to.x) > reach) corners[i].bulge = draw.real(-0.5, 1);
+      }
+      return b.primitive("revolution", {Outline{{corners}}});
+    };
+    const SceneNodeId ring = b.primitive("revolution", {Outline{{{{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}}}}});
+    const SceneNodeId bodies =
+        b.unite({turned(0.3, 0.6), b.translate({0, 0, 0.5}, b.rotate({0, 0, 20}, turned(0, 0.7))),
+                 b.translate({2, 0, 0}, ring), b.rotate({70, 30, 0}, turned(0.5, 0.4))});
+    const SceneNodeId tools =
+        b.unite({b.translate({0.2, 0.1, -1}, b.cylinder(4, 0.3)), b.translate({2, 0, 0.5}, ring),
+                 b.translate({1, 0.5, 0.7}, b.sphere(0.5)), b.rotate({0, 90, 0}, b.scale(0.5, turned(0.2, 0.7)))});
+    const CsgTree tree = b.tree(b.subtract({bodies, tools}));
+    for (const char* spec : {"cells", "cells:quality=fast"}) expect_same_answers(tree, spec, 400);
+    expect_streams_say_what_single_rays_say(tree, 4000);
+    const auto cells = build_accelerator("cells", tree);
+    EXPECT_LT(detail(**cells, "cells with leaves of no special kind"), 0.5 * detail(**cells, "boundary cells"));
+  }
+}
+
 // Meshes of few triangles come to planes in most cells; with corners that go in and out, overlapping parts, and faces
 // that lie in one another's.
 TEST(Cells, FollowMeshesByTheirPlanes) {

@@ -36,7 +36,10 @@ TEST(SolvePolynomial, MultipleRootsComeInPairsOrNotAtAll) {
   // (t² - 1/4)²: touches zero twice from above.
   const auto touching = solve_polynomial(BoundedPolynomial<4>{{{0.0625, 0, -0.5, 0, 1}}, {}}, -1, 1);
   EXPECT_EQ(touching.size() % 2, 0u);
+  EXPECT_GE(touching.size(), 2u);
   for (std::size_t i = 0; i + 1 < touching.size(); i += 2) EXPECT_GE(touching[i].hi, touching[i + 1].lo);
+  // Where it is told from zero on both sides, not as far as it turns again.
+  for (const CrossingRoot& root : touching) EXPECT_LT(root.hi - root.lo, 1e-6);
   // t³ crosses once.
   EXPECT_EQ(solve_polynomial(BoundedPolynomial<3>{{{0, 0, 0, 1}}, {}}, -1, 1).size() % 2, 1u);
   // t⁴ + 1e-3 has none; t⁴ touches.

@@ -1,41 +1,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
-#include "primitive/arc.h"
+#include "primitive/outline_checks.h"
 #include "primitive/prism.h"
 #include "primitive/random_placement.h"
 
 namespace tenon {
 namespace {
 
-// A polygon around the origin whose radius jumps, with a hole of the same kind; corners on a coarse lattice now and
-// then, so that edges run along the axes, and neighbours in line.
-Outline random_outline(Random& random, bool with_arcs) {
-  Outline outline;
-  for (const double size : {2.0, 0.6}) {
-    if (size < 1 && random.chance(0.5)) break;
-    std::vector<OutlineCorner>& loop = outline.loops.emplace_back();
-    const int corners = 3 + random.below(8);
-    const bool on_lattice = random.chance(0.3);
-    for (int i = 0; i < corners; ++i) {
-      const double angle = 2 * std::numbers::pi * (i + random.uniform(0.1, 0.9)) / corners;
-      const double r = size * random.uniform(0.5, 1);
-      OutlineCorner corner{r * std::cos(angle), r * std::sin(angle), 0};
-      if (on_lattice) corner = {std::round(4 * corner.x) / 4, std::round(4 * corner.y) / 4, 0};
-      if (with_arcs && random.chance(0.4)) corner.bulge = random.uniform(-0.3, 0.3);
-      loop.push_back(corner);
-    }
-    if (random.chance(0.5)) std::reverse(loop.begin(), loop.end());
-  }
-  return outline;
-}
-
 Prism random_prism(Random& random, bool with_arcs) {
   Prism prism;
   do {
-    prism.outline = random_outline(random, with_arcs);
+    prism.outline = outlines::random_outline(random, with_arcs);
   } while (!prism.check().empty());
   prism.h = random.uniform(0.5, 2);
   prism.center = random.chance(0.5);
@@ -118,25 +95,6 @@ TEST(PrismPieces, EdgesThatEndBeforeTheBoxBoundNothing) {
   EXPECT_EQ(prism.planes_within(box, planes), PlanarPart::unknown);
 }
 
-// How often a straight way in the plane crosses an edge, an arc being a hundred chords.
-int crossings(const OutlineEdge& edge, const Vec2& a, const Vec2& b) {
-  const auto side = [](const Vec2& p, const Vec2& q, const Vec2& r) { return cross(q - p, r - p) > 0; };
-  const int parts = edge.is_arc() ? 100 : 1;
-  // Of the sweep; it goes to the left where the bulge is positive, and the arc lies to the right of the chord.
-  const double sweep = 4 * std::atan(edge.bulge);
-  const Circle circle = edge.is_arc() ? circle_of_arc(edge.from, edge.to, edge.bulge) : Circle{};
-  const Vec2 from = edge.from - circle.center;
-  int count = 0;
-  Vec2 last = edge.from;
-  for (int i = 1; i <= parts; ++i) {
-    const double angle = sweep * i / parts, c = std::cos(angle), s = std::sin(angle);
-    const Vec2 next = i == parts ? edge.to : circle.center + Vec2{c * from.x - s * from.y, s * from.x + c * from.y};
-    count += side(last, next, a) != side(last, next, b) && side(a, b, last) != side(a, b, next);
-    last = next;
-  }
-  return count;
-}
-
 // Where a prism is said to be what a few walls bound, the way from the place that is known tells of every point.
 TEST(PrismPieces, WallsTellThePrismWithinTheirBox) {
   Random random(93);
@@ -156,7 +114,7 @@ TEST(PrismPieces, WallsTellThePrismWithinTheirBox) {
     const Vec3 half = random.magnitude(-3, 0) * Vec3{1, random.uniform(0.3, 1), 1};
     const LocalBox box = placement->to_local(Box3{middle - half, middle + half});
     constexpr std::size_t most = 5;
-    WallPart part;
+    SweptPart part;
     if (!prism.walls_within(box, most, part)) continue;
     ASSERT_LE(part.walls.size(), most);
     ++parts;
@@ -172,7 +130,7 @@ TEST(PrismPieces, WallsTellThePrismWithinTheirBox) {
       // Chords are that far from their arcs.
       if (all.is_near_edge(place, 1e-3) || all.is_near_edge(part.place, 1e-3)) continue;
       int passed = part.is_inside ? 1 : 0;
-      for (const OutlineEdge& wall : part.walls) passed += crossings(wall, part.place, place);
+      for (const OutlineEdge& wall : part.walls) passed += outlines::crossings(wall, part.place, place);
       const bool is_between_caps = part.low < p.z && p.z < part.high;
       // By a box of no size.
       const Region region = prism.classify(placement->to_local(Box3{map.point(p), map.point(p)}));

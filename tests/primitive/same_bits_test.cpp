@@ -71,7 +71,7 @@ TEST(SameBits, OnEveryCompilerAndMachine) {
       }
     }
   }
-  EXPECT_EQ(hash, 10224924773775356462u);
+  EXPECT_EQ(hash, 15364836145247557049u);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "accel/cells/cell.h"
 #include "accel/cells/leaf_records.h"
 
@@ -24,6 +26,12 @@ struct CellCost {
   /// Of a swept outline in a cell: the caps and the way to the place that is known, and each wall.
   static double of_outline(std::size_t walls) { return 3 + 1.2 * static_cast<double>(walls); }
 
+  /// Of a turned outline: places on the ray, each wall, and that rays are left to the classifier which cross three.
+  static double of_revolved(std::size_t walls) {
+    const auto k = static_cast<double>(walls);
+    return 5 + k + 0.5 * k * std::max(k - 2, 0.0);
+  }
+
   /// @param spans_cost  of the primitive's spans() (dispatch.h), for leaves without a record
   static double of_leaf(RecordKind kind, double spans_cost) {
     switch (kind) {
@@ -44,6 +52,9 @@ struct CellCost {
       case RecordKind::outline:
       case RecordKind::outline_piece:
         return of_outline(1);
+      case RecordKind::revolved:
+      case RecordKind::revolved_piece:
+        return of_revolved(1);
       case RecordKind::torus:
         return 8;
       case RecordKind::instance:

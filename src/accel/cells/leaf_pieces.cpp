@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "accel/cells/cell_cost.h"
 #include "accel/cells/planes_recorder.h"
@@ -11,8 +12,15 @@ namespace tenon::cells {
 
 bool LeafPieces::may_have(const CsgTree& tree, const Leaf& leaf) {
   return visit(tree.primitives.lists(), leaf.primitive, [](const auto& primitive) {
-    return requires(const LocalBox& box, std::vector<Plane>& planes) {
+    const LocalBox box{};
+    return requires(std::vector<Plane> & planes) {
       primitive.planes_within(box, planes);
+    }
+    || requires(SweptPart & part) {
+      primitive.walls_within(box, most_walls, part);
+    }
+    || requires(RevolvedPart & part) {
+      primitive.walls_within(box, most_walls, part);
     };
   });
 }
@@ -20,25 +28,35 @@ bool LeafPieces::may_have(const CsgTree& tree, const Leaf& leaf) {
 bool LeafPieces::find(LeafId id, const Box3& box) {
   const Leaf& leaf = tree_[id];
   box_ = box;
+  leaf_ = &leaf;
   const LocalBox local = leaf.placement.to_local(box);
   return find_planes(leaf, local) || find_walls(leaf, local);
 }
 
 bool LeafPieces::find_walls(const Leaf& leaf, const LocalBox& local) {
-  const bool are_few = visit(tree_.primitives.lists(), leaf.primitive, [&](const auto& primitive) {
-    if constexpr (requires { primitive.walls_within(local, most_walls, walls_); }) {
-      return primitive.walls_within(local, most_walls, walls_);
+  return visit(tree_.primitives.lists(), leaf.primitive, [&](const auto& primitive) {
+    if constexpr (requires { primitive.walls_within(local, most_walls, swept_); }) {
+      kind_ = RecordKind::outline_piece;
+      return primitive.walls_within(local, most_walls, swept_) && outline_.record(leaf, scale_, center_, swept_, box_);
+    } else if constexpr (requires { primitive.walls_within(local, most_walls, turned_); }) {
+      kind_ = RecordKind::revolved_piece;
+      return primitive.walls_within(local, most_turned_walls, turned_) &&
+             revolved_.record(leaf, scale_, center_, turned_, box_);
     } else {
       return false;
     }
   });
-  kind_ = RecordKind::outline_piece;
-  leaf_ = &leaf;
-  return are_few && outline_.record(leaf, scale_, center_, walls_, box_);
 }
 
 double LeafPieces::price() const {
-  return kind_ == RecordKind::outline_piece ? CellCost::of_outline(walls_.walls.size()) : CellCost::of_leaf(kind_, 0);
+  if (kind_ == RecordKind::outline_piece) return CellCost::of_outline(swept_.walls.size());
+  if (kind_ == RecordKind::revolved_piece) return CellCost::of_revolved(turned_.walls.size());
+  return CellCost::of_leaf(kind_, 0);
+}
+
+const std::vector<double>& LeafPieces::values() {
+  if (kind_ == RecordKind::outline_piece) return outline_.finish(*leaf_, scale_);
+  return kind_ == RecordKind::revolved_piece ? revolved_.values() : values_;
 }
 
 bool LeafPieces::find_planes(const Leaf& leaf, const LocalBox& local) {
@@ -64,42 +82,61 @@ bool LeafPieces::find_planes(const Leaf& leaf, const LocalBox& local) {
 }
 
 Box3 LeafPieces::surface() const {
-  return kind_ == RecordKind::outline_piece ? surface_of_walls() : surface_of_planes();
+  if (kind_ == RecordKind::outline_piece) return surface_of_outline();
+  return kind_ == RecordKind::revolved_piece ? surface_of_revolved() : surface_of_planes();
 }
 
-// In the leaf's frame a box around the walls, and one of each cap, which may be there for all the box.
-Box3 LeafPieces::surface_of_walls() const {
-  const Placement& placement = leaf_->placement;
-  const Box3 bounds = placement.to_local(box_).bounds;
+// @param parts  boxes of the leaf's frame that it lies in
+Box3 LeafPieces::surface_of(std::span<const Box3> parts) const {
+  const Affine3& map = leaf_->placement.world_from_local();
   Box3 all;
-  const auto take = [&](const Box3& local) {
-    const Box3 within = intersection(local, bounds);
-    if (within.is_empty()) return;
-    const Affine3& map = placement.world_from_local();
-    const Vec3 middle = map.point(within.center()), half = 0.5 * within.size();
+  for (const Box3& part : parts) {
+    if (part.is_empty()) continue;
+    const Vec3 middle = map.point(part.center()), half = 0.5 * part.size();
     const Vec3 reach{dot(abs(map.row(0)), half), dot(abs(map.row(1)), half), dot(abs(map.row(2)), half)};
     all = hull(all, {middle - reach, middle + reach});
-  };
-  for (const OutlineEdge& wall : walls_.walls) {
-    Box3 around = bounds;
-    const auto scaled = [&](double v, bool is_low) {
-      return (v < 0) == is_low ? v * walls_.most_scale : v * walls_.least_scale;
-    };
-    around.lower.x = scaled(wall.lower.x, true);
-    around.lower.y = scaled(wall.lower.y, true);
-    around.upper.x = scaled(wall.upper.x, false);
-    around.upper.y = scaled(wall.upper.y, false);
-    around.lower.z = std::max(around.lower.z, walls_.low);
-    around.upper.z = std::min(around.upper.z, walls_.high);
-    take(around);
-  }
-  for (const double cap : {walls_.low, walls_.high}) {
-    Box3 face = bounds;
-    face.lower.z = face.upper.z = cap;
-    take(face);
   }
   // Terms no larger than the scene, each of which rounds a few times; the box of the cell is grown by much more.
   return intersection(grown(all, 0x1p-40 * scale_.reach), box_);
+}
+
+// A box around each wall, and one of each cap, which may be there for all the box.
+Box3 LeafPieces::surface_of_outline() const {
+  const Box3 bounds = leaf_->placement.to_local(box_).bounds;
+  std::vector<Box3> parts;
+  for (const OutlineEdge& wall : swept_.walls) {
+    const auto scaled = [&](double v, bool is_low) {
+      return (v < 0) == is_low ? v * swept_.most_scale : v * swept_.least_scale;
+    };
+    const Box3 around{{scaled(wall.lower.x, true), scaled(wall.lower.y, true), swept_.low},
+                      {scaled(wall.upper.x, false), scaled(wall.upper.y, false), swept_.high}};
+    parts.push_back(intersection(around, bounds));
+  }
+  for (const double cap : {swept_.low, swept_.high}) {
+    Box3 face = bounds;
+    face.lower.z = face.upper.z = cap;
+    parts.push_back(intersection(face, bounds));
+  }
+  return surface_of(parts);
+}
+
+// What of the box lies in the ring that a wall's box makes: as far along x as y lets it.
+Box3 LeafPieces::surface_of_revolved() const {
+  const Box3 bounds = leaf_->placement.to_local(box_).bounds;
+  std::vector<Box3> parts;
+  for (const OutlineEdge& wall : turned_.walls) {
+    Box3 part = intersection(
+        bounds, {{-wall.upper.x, -wall.upper.x, wall.lower.y}, {wall.upper.x, wall.upper.x, wall.upper.y}});
+    if (part.is_empty()) continue;
+    for (const auto& [along, across] : {std::pair{0, 1}, std::pair{1, 0}}) {
+      const double most = std::max(std::fabs(part.lower[across]), std::fabs(part.upper[across]));
+      const double least = std::sqrt(std::max(wall.lower.x * wall.lower.x - most * most, 0.0));
+      if (part.lower[along] >= 0) part.lower[along] = std::max(part.lower[along], least);
+      if (part.upper[along] <= 0) part.upper[along] = std::min(part.upper[along], -least);
+    }
+    parts.push_back(part);
+  }
+  return surface_of(parts);
 }
 
 // Where n·p = d goes through a box: along each axis as far as the other two terms let it.

@@ -1,16 +1,18 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "accel/cells/cell_scale.h"
 #include "accel/cells/outline_recorder.h"
+#include "accel/cells/revolved_recorder.h"
 #include "csg/csg_tree.h"
 
 namespace tenon::cells {
 
 /// What leaves of costly kinds come to within small boxes: where few faces of one go through, it is what lies below a
-/// few planes, as a convex solid does, or all but that (planes_within() of the primitive), or what few walls of a swept
-/// outline bound (walls_within()).
+/// few planes, as a convex solid does, or all but that (planes_within() of the primitive), or what few walls of an
+/// outline bound that is swept or turned (walls_within()).
 class LeafPieces {
  public:
   /// @param center  what the records' places are relative to
@@ -23,25 +25,25 @@ class LeafPieces {
   /// Finds the piece of a leaf that stands for it within a box of the world.
   /// @return whether there is one
   bool find(LeafId leaf, const Box3& box);
-  /// Of the piece that was found last: convex_piece, notch_piece or outline_piece.
+  /// Of the piece that was found last: that of a piece.
   RecordKind kind() const { return kind_; }
   /// A box around its surface, within the box.
   Box3 surface() const;
   /// What following it costs (CellCost).
   double price() const;
   /// The numbers of its record.
-  const std::vector<double>& values() {
-    return kind_ == RecordKind::outline_piece ? outline_.finish(*leaf_, scale_) : values_;
-  }
+  const std::vector<double>& values();
 
  private:
   // By trial on OpenSCAD's examples: half as many made text slower.
-  static constexpr std::size_t most_walls = 16;
+  static constexpr std::size_t most_walls = 16, most_turned_walls = 16;
 
   bool find_planes(const Leaf& leaf, const LocalBox& local);
   bool find_walls(const Leaf& leaf, const LocalBox& local);
   Box3 surface_of_planes() const;
-  Box3 surface_of_walls() const;
+  Box3 surface_of_outline() const;
+  Box3 surface_of_revolved() const;
+  Box3 surface_of(std::span<const Box3> parts) const;
 
   const CsgTree& tree_;
   const CellScale& scale_;
@@ -51,8 +53,10 @@ class LeafPieces {
   std::vector<Plane> planes_;  // in the leaf's frame
   std::vector<double> values_;
   const Leaf* leaf_ = nullptr;  // of walls
-  WallPart walls_;
+  SweptPart swept_;
+  RevolvedPart turned_;
   OutlineRecorder outline_;
+  RevolvedRecorder revolved_;
 };
 
 }  // namespace tenon::cells

@@ -13,8 +13,8 @@ namespace tenon::cells {
 /// The kinds of leaf that rays are followed through by plain arithmetic. A ray that meets a cell with a `general` leaf
 /// is resolved by the classifier there; in one with an `instance` it is followed through the cells of that.
 ///
-/// A piece is what a leaf comes to in one cell (LeafPieces): a convex solid, all but one, a `notch`, or a swept outline
-/// of few walls. Until all cells are built, its record stands in their store.
+/// A piece is what a leaf comes to in one cell (LeafPieces): a convex solid, all but one, a `notch`, or an outline of
+/// few walls that is swept, or turned, `revolved`. Until all cells are built, its record stands in their store.
 enum class RecordKind : std::uint8_t {
   general,
   ball,
@@ -26,10 +26,12 @@ enum class RecordKind : std::uint8_t {
   torus,
   notch,
   outline,
+  revolved,
   instance,
   convex_piece,
   notch_piece,
-  outline_piece
+  outline_piece,
+  revolved_piece
 };
 
 /// The kind of a piece whose record has come to stand with all others; any other kind is what it was.
@@ -41,6 +43,8 @@ inline RecordKind settled(RecordKind kind) {
       return RecordKind::notch;
     case RecordKind::outline_piece:
       return RecordKind::outline;
+    case RecordKind::revolved_piece:
+      return RecordKind::revolved;
     default:
       return kind;
   }
@@ -105,20 +109,40 @@ struct ConvexRecord {
   static constexpr std::size_t count = 0, least = 1, planes = 2, plane_size = 4;
 };
 
-/// A swept outline within a box of the world (WallPart), relative to the box's middle.
-///
-/// A place u in the leaf's frame is inside of the outline if the way from there to `place`, of which `is_inside` says
-/// so, passes an even number of walls. Of each of them, relative to its first end, p = u - offset - scale_slope u.z
-/// from, curvature |p|² + normal·p scale(u.z) = 0 is the line or circle; about the distance near there, times the
-/// scale. `least` and `graze` are as in ConvexRecord and ProfileRecord; nearer than `margin` to an end of a wall, or
-/// than `place_margin` in the plane of the outline, nothing is certain.
-struct OutlineRecord {
-  static constexpr std::size_t center = 0, map = 3, low = 12, high = 13, least_to_caps = 14, least = 15, margin = 16,
-                               place_margin = 17, scale = 18, scale_slope = 19, start = 20, is_inside = 21, count = 22,
-                               walls = 23;
+/// What records of outlines within a box of the world have in common (WallPart), relative to the box's middle. `known`
+/// is the place of the outline's plane of which `is_inside` says whether it is inside; `least` is as in ConvexRecord.
+/// Nearer than `margin` to an end of a wall, or than `place_margin` in the plane of the outline, nothing is certain.
+struct WallsRecord {
+  static constexpr std::size_t center = 0, map = 3, least = 12, margin = 13, place_margin = 14, known = 15,
+                               is_inside = 17, count = 18, size = 19;
+  /// A wall: of a place p of the plane relative to its first end, curvature |p|² + normal·p is zero on its line or
+  /// circle, and about the distance near there. `place` is the one that is known, relative to that end, and `at_place`
+  /// the value there. Relative to the place that is known the wall lies between `lower` and `upper`, margins included.
+  struct Wall {
+    static constexpr std::size_t normal = 0, chord = 2, length = 4, curvature = 5, place = 6, at_place = 8, lower = 9,
+                                 upper = 11, size = 13;
+  };
+};
+
+/// A swept outline (SweptPart). A place u in the leaf's frame is p = u - offset - scale_slope u.z from, from the first
+/// end of a wall, and curvature |p|² + normal·p scale(u.z) = 0 is the wall's line or circle. `graze` is as in
+/// ProfileRecord.
+struct OutlineRecord : WallsRecord {
+  static constexpr std::size_t low = size, high = size + 1, least_to_caps = size + 2, scale = size + 3,
+                               scale_slope = size + 4, known_offset = size + 5, start = size + 7, walls = size + 8;
   // Of each wall.
-  static constexpr std::size_t offset = 0, from = 2, normal = 4, chord = 6, length = 8, curvature = 9, graze = 10,
-                               place = 11, at_place = 13, wall_size = 14;
+  static constexpr std::size_t offset = Wall::size, from = Wall::size + 2, graze = Wall::size + 4,
+                               wall_size = Wall::size + 5;
+};
+
+/// A turned outline (RevolvedPart), by the distance from the axis and relative to the box's middle along it. The middle
+/// stands `middle` off the axis; walls are turned so that they run away from the axis, or bulge to their right.
+/// `center_radius` is how far from the axis the centre of an arc is, if that is on the same side. Values within `doubt`
+/// may be zero.
+struct RevolvedRecord : WallsRecord {
+  static constexpr std::size_t middle = size, doubt = size + 2, walls = size + 3;
+  // Of each wall.
+  static constexpr std::size_t center_radius = Wall::size, wall_size = Wall::size + 1;
 };
 
 /// A ring in a frame of its own: its radii, a bound on the error of TorusQuartic, and the slope of that function along

@@ -13,6 +13,7 @@
 
 #include "accel/cells/flat_rays-inl.h"
 #include "accel/cells/outline_stretch-inl.h"
+#include "accel/cells/revolved_stretch-inl.h"
 #include "accel/cells/scene_rays-inl.h"
 #include "accel/cells/torus_stretch-inl.h"
 
@@ -246,6 +247,9 @@ HWY_INLINE Stretch<D> FindStretch(D d, const SceneRays<D>& ray, RecordKind kind,
     case RecordKind::outline:
       if constexpr (std::is_same_v<Record, SharedRecord<D>>) return OutlineStretch(d, ray, r, reach, t_in, t_out);
       break;
+    case RecordKind::revolved:
+      if constexpr (std::is_same_v<Record, SharedRecord<D>>) return RevolvedStretch(d, ray, r, t_in, t_out, lanes);
+      break;
     case RecordKind::torus:
       return TorusStretch(d, ray, r, t_in, t_out, lanes);
     case RecordKind::general:
@@ -253,6 +257,7 @@ HWY_INLINE Stretch<D> FindStretch(D d, const SceneRays<D>& ray, RecordKind kind,
     case RecordKind::convex_piece:
     case RecordKind::notch_piece:
     case RecordKind::outline_piece:
+    case RecordKind::revolved_piece:
       break;
   }
   Stretch<D> none = WholeStretch(d);

@@ -52,7 +52,7 @@ class StreamTracer {
   static constexpr std::size_t double_lanes = RayBatch::double_lanes;
   // Rays under way. By trial on the bench; it decides nothing but how long they take.
   static constexpr std::size_t most_slots = 32;
-  static constexpr std::uint32_t kinds = static_cast<std::uint32_t>(RecordKind::outline) + 1;
+  static constexpr std::uint32_t kinds = static_cast<std::uint32_t>(RecordKind::revolved) + 1;
   static constexpr ChildRef end_of_stack{~std::uint32_t{0}};
 
   // A ray under way, and where it is: all that opening a node needs, in one line of the cache.
@@ -209,12 +209,14 @@ class StreamTracer {
       case RecordKind::convex:
       case RecordKind::notch:
       case RecordKind::outline:
+      case RecordKind::revolved:
         return MeetOneByOne(kind);
       case RecordKind::general:
       case RecordKind::instance:
       case RecordKind::convex_piece:
       case RecordKind::notch_piece:
       case RecordKind::outline_piece:
+      case RecordKind::revolved_piece:
         break;
     }
   }

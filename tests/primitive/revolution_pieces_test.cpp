@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "primitive/outline_checks.h"
+#include "primitive/random_placement.h"
+#include "primitive/revolution.h"
+
+namespace tenon {
+namespace {
+
+// Off the axis, or up to it and along it.
+Revolution random_revolution(Random& random, bool with_arcs) {
+  Revolution solid;
+  do {
+    solid.outline = outlines::random_outline(random, with_arcs);
+    const double aside = random.uniform(0, 4);
+    for (auto& loop : solid.outline.loops) {
+      for (OutlineCorner& corner : loop) corner.x = std::max(corner.x + aside, 0.0);
+    }
+    solid.prepare();
+  } while (!solid.check().empty());
+  return solid;
+}
+
+// Where a solid is said to be what a few walls bound, the way from the place that is known tells of every point.
+TEST(RevolutionPieces, WallsTellTheSolidWithinTheirBox) {
+  Random random(94);
+  int parts = 0, with_arcs = 0, crowded = 0, around_axis = 0, points = 0, inside = 0;
+  for (int round = 0; round < 20000; ++round) {
+    const Revolution solid = random_revolution(random, true);
+    const Affine3 map =
+        random.chance(0.5) ? Affine3::rotate({0, 0, 0}) : Affine3::rotate(90 * random.in_cube() + Vec3{10, 0, 0});
+    const auto placement = Placement::create(BoundedAffine3::elementary(map), {0, 0, 0});
+    ASSERT_TRUE(placement);
+    const auto& loop = solid.outline.loops[random.below(static_cast<int>(solid.outline.loops.size()))];
+    const OutlineCorner& corner = loop[static_cast<std::size_t>(random.below(static_cast<int>(loop.size())))];
+    const double angle = random.uniform(-3, 3), r = random.chance(0.1) ? 0 : corner.x;
+    const Vec3 middle = map.point({r * std::cos(angle), r * std::sin(angle), corner.y}) + 0.1 * random.in_cube();
+    const Vec3 half = random.magnitude(-3, 0) * Vec3{1, random.uniform(0.3, 1), 1};
+    const LocalBox box = placement->to_local(Box3{middle - half, middle + half});
+    constexpr std::size_t most = 5;
+    RevolvedPart part;
+    if (!solid.walls_within(box, most, part)) continue;
+    ASSERT_LE(part.walls.size(), most);
+    ++parts;
+    crowded += part.walls.size() > 2;
+    around_axis += box.bounds.contains(Vec3{0, 0, box.center.z});
+    with_arcs += std::any_of(part.walls.begin(), part.walls.end(), [](const OutlineEdge& w) { return w.is_arc(); });
+    const OutlineEdges all(solid.outline);
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 p = placement->point_to_local(middle + half * random.in_cube());
+      const Vec2 place{std::hypot(p.x, p.y), p.z};
+      // Chords are that far from their arcs.
+      if (all.is_near_edge(place, 1e-3) || all.is_near_edge(part.place, 1e-3)) continue;
+      int passed = part.is_inside ? 1 : 0;
+      for (const OutlineEdge& wall : part.walls) passed += outlines::crossings(wall, part.place, place);
+      // By a box of no size.
+      const Region region = solid.classify(placement->to_local(Box3{map.point(p), map.point(p)}));
+      if (region == Region::straddles) continue;
+      ASSERT_EQ(passed % 2 != 0, region == Region::inside) << "round " << round << " point " << i;
+      ++points;
+      inside += region == Region::inside;
+    }
+  }
+  EXPECT_GT(parts, 10000);
+  EXPECT_GT(with_arcs, 5000);
+  EXPECT_GT(crowded, 800);
+  EXPECT_GT(around_axis, 800);
+  EXPECT_GT(inside, points / 5);
+  EXPECT_LT(inside, 4 * points / 5);
+}
+
+// The edge between two corners at one place has no length, and no line lies in it.
+TEST(RevolutionPieces, CornersThatAreGivenTwiceBoundNothing) {
+  Revolution once, twice;
+  once.outline = {{{{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}}}};
+  twice.outline = {{{{1, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {2, 1, 0}, {1, 1, 0}}}};
+  once.prepare();
+  twice.prepare();
+  ASSERT_TRUE(twice.check().empty());
+  for (const double z : {0.0, 0.5, 1.0}) {
+    LocalRay ray;
+    ray.origin = {-3, 0, z};
+    ray.direction = {1, 0, 0};
+    ray.origin_error = {1e-14, 1e-14, 1e-14};
+    Spans expected, found;
+    once.spans(ray, expected);
+    twice.spans(ray, found);
+    ASSERT_EQ(found.size(), expected.size()) << "z = " << z;
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].t, expected[i].t) << "z = " << z;
+  }
+}
+
+// A crossing that is found from its neighbourhood is that of spans(), to the last bit.
+TEST(RevolutionPieces, CrossingsFoundFromNearbyAreThoseOfSpans) {
+  Random random(95);
+  int asked = 0, found = 0;
+  for (int round = 0; round < 15000; ++round) {
+    const Revolution solid = random_revolution(random, random.chance(0.5));
+    for (int i = 0; i < 10; ++i) {
+      LocalRay ray;
+      const Vec3 aim = 4 * random.in_cube() * Vec3{1, 1, 0.5};
+      ray.direction = random.chance(0.1) ? Vec3{0, 0, 1} : random.direction();
+      // Through the axis, now and then.
+      ray.origin = (random.chance(0.1) ? Vec3{0, 0, aim.z} : aim) + 0.1 * ray.direction;
+      const double error = random.magnitude(-15, -10);
+      ray.origin_error = {error, error, error};
+      ray.direction_error = 0.1 * ray.origin_error;
+      Spans spans;
+      solid.spans(ray, spans);
+      for (const Crossing& c : spans) {
+        const double near = 1e-7;
+        ++asked;
+        const auto known = solid.crossing_near(ray, c.t + 0.5 * near * random.uniform(-1, 1), near, c.entering);
+        if (!known) continue;
+        ++found;
+        EXPECT_EQ(known->t, c.t);
+        EXPECT_EQ(known->face, c.face);
+        EXPECT_EQ(known->entering, c.entering);
+        EXPECT_GE(known->bound, c.bound);
+      }
+    }
+  }
+  EXPECT_GT(found, asked / 2);
+}
+
+}  // namespace
+}  // namespace tenon
