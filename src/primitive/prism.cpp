@@ -195,7 +195,7 @@ bool Prism::walls_within(const LocalBox& box, std::size_t most, SweptPart& part)
   if (!(part.least_scale > 0x1p-6 * std::max(1.0, scale))) return false;
   const bool are_few = visit_walls(box, part.least_scale, part.most_scale, [&](std::uint32_t i) {
     if (part.walls.size() == most) return false;
-    part.walls.push_back(edges_.edges()[i]);
+    part.walls.push_back({edges_.edges()[i], i});
     return true;
   });
   if (!are_few) return false;

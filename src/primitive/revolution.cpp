@@ -132,7 +132,7 @@ bool Revolution::walls_within(const LocalBox& box, std::size_t most, RevolvedPar
     // What lies on the axis bounds nothing.
     if (edge.from.x <= 0 && edge.to.x <= 0 && !edge.is_arc()) return true;
     if (part.walls.size() == most) return false;
-    part.walls.push_back(edge);
+    part.walls.push_back({edge, i});
     return true;
   });
   if (!are_few) return false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "primitive/local_box.h"
@@ -13,7 +14,11 @@ namespace tenon {
 /// known whether it is inside. So is any other of that part, if the straight way from there to `place` crosses an even
 /// number of walls and the place is inside, or an odd number and it is not.
 struct WallPart {
-  std::vector<OutlineEdge> walls;
+  struct Wall : OutlineEdge {
+    std::uint32_t index = 0;  ///< of the edge
+  };
+
+  std::vector<Wall> walls;
   Vec2 place;
   bool is_inside = false;
 

@@ -31,6 +31,8 @@ class Certainty {
 
   /// Bound on the error of a place on the ray, per axis of the leaf's frame.
   const Vec3& place() const { return place_; }
+  /// That of the direction of a ray, over its length in the world.
+  const Vec3& direction() const { return direction_; }
   /// Norms of local_from_world, at most and at least.
   double most_stretch() const { return most_; }
   double least_stretch() const { return least_; }
@@ -71,8 +73,13 @@ class Certainty {
     const double a_error = (2 + s * s) * (2 * m + d) * d + gamma(12) * (1 + s * s) * m * m;
     const double b_error = 2 * (r + o) * d + 2 * m * o + (r + w_error) * s * d + s * m * w_error + 0.5 * l * d +
                            gamma(10) * (2 * r + s * r + l) * m;
-    // On the side |x|, |y| and w are at most r, and |offset| + |slope z| at most 2 r. The other root -2 b / a lies
-    // within the scene, whose points are no further apart than 4 reach, or does not matter.
+    // On the side |x|, |y| and w are at most r, and |offset| + |slope z| at most 2 r.
+    return least_certain_deflated(a_error, b_error);
+  }
+
+  /// How large a has to be, for a direction of length 1, so that the other root of a t² + 2 b t (solve_deflated) is
+  /// within half of it. It lies within the scene, whose points are no further apart than 4 reach, or does not matter.
+  double least_certain_deflated(double a_error, double b_error) const {
     return a_error + 2 * (4 * scale_.reach * a_error + 2 * b_error) / scale_.certain;
   }
 

@@ -55,7 +55,7 @@ double LeafPieces::price() const {
 }
 
 const std::vector<double>& LeafPieces::values() {
-  if (kind_ == RecordKind::outline_piece) return outline_.finish(*leaf_, scale_);
+  if (kind_ == RecordKind::outline_piece) return outline_.values();
   return kind_ == RecordKind::revolved_piece ? revolved_.values() : values_;
 }
 

@@ -290,6 +290,27 @@ class Recorder {
   LeafRecords& records_;
 };
 
+// Caps and straight walls are flat, and met once.
+// @param direction  in the leaf's frame. @param square  of its length in the world
+bool outline_start_is_certain(const double* r, int on_face, const Vec3& direction, double square) {
+  if (on_face < static_cast<int>(Prism::walls)) return true;
+  const int edge = (on_face - static_cast<int>(Prism::walls)) / 2;
+  const auto count = static_cast<std::size_t>(r[WallsRecord::count]);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double* wall = r + OutlineRecord::walls + i * OutlineRecord::wall_size;
+    if (wall[OutlineRecord::index] != edge) continue;
+    const double curvature = wall[WallsRecord::Wall::curvature];
+    if (curvature == 0) return true;
+    const double change = r[OutlineRecord::scale_slope] * direction.z;
+    const double x = direction.x - change * wall[OutlineRecord::from];
+    const double y = direction.y - change * wall[OutlineRecord::from + 1];
+    const double* normal = wall + WallsRecord::Wall::normal;
+    const double a = curvature * (x * x + y * y) + change * (normal[0] * x + normal[1] * y);
+    return std::fabs(a) > wall[OutlineRecord::start] * square;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool LeafRecords::start_is_certain(RecordRef ref, int on_face, const Vec3& direction) const {
@@ -299,8 +320,8 @@ bool LeafRecords::start_is_certain(RecordRef ref, int on_face, const Vec3& direc
     return dot(Vec3{row[0], row[1], row[2]}, direction);
   };
   if (ref.kind() == RecordKind::outline) {
-    const double across = square(mapped(OutlineRecord::map, 0)) + square(mapped(OutlineRecord::map, 1));
-    return across >= r[OutlineRecord::start] * dot(direction, direction);
+    const auto row = [&](std::size_t i) { return mapped(OutlineRecord::map, i); };
+    return outline_start_is_certain(r, on_face, {row(0), row(1), row(2)}, dot(direction, direction));
   }
   // The caps are flat.
   if (on_face != 0) return true;

@@ -126,13 +126,14 @@ struct WallsRecord {
 
 /// A swept outline (SweptPart). A place u in the leaf's frame is p = u - offset - scale_slope u.z from, from the first
 /// end of a wall, and curvature |p|² + normal·p scale(u.z) = 0 is the wall's line or circle. `graze` is as in
-/// ProfileRecord.
+/// ProfileRecord. A ray that starts on an arc is certain of where it meets its circle again if the coefficient of t²
+/// there exceeds `start`, over the square of its direction. `index` is that of the edge.
 struct OutlineRecord : WallsRecord {
   static constexpr std::size_t low = size, high = size + 1, least_to_caps = size + 2, scale = size + 3,
-                               scale_slope = size + 4, known_offset = size + 5, start = size + 7, walls = size + 8;
+                               scale_slope = size + 4, known_offset = size + 5, walls = size + 7;
   // Of each wall.
   static constexpr std::size_t offset = Wall::size, from = Wall::size + 2, graze = Wall::size + 4,
-                               wall_size = Wall::size + 5;
+                               start = Wall::size + 5, index = Wall::size + 6, wall_size = Wall::size + 7;
 };
 
 /// A turned outline (RevolvedPart), by the distance from the axis and relative to the box's middle along it. The middle

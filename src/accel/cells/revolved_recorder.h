@@ -30,8 +30,9 @@ class RevolvedRecorder {
     const Vec3 middle = placement.point_to_local(box.center()), errors = certainty.place();
     const double most = certainty.most_stretch();
     double extent = most * (scale.reach + length(placement.world_origin()));
-    for (OutlineEdge& wall : part.walls) {
-      if (!(wall.bulge == 0 ? wall.chord().y >= 0 : wall.bulge > 0)) wall = reversed(wall);
+    for (WallPart::Wall& wall : part.walls) {
+      const bool runs_away = wall.is_arc() ? wall.bulge > 0 : wall.chord().y >= 0;
+      if (!runs_away) reverse(wall);
       extent = std::max(extent, length(wall.from));
     }
     const double place_error = std::hypot(errors.x, errors.y) + errors.z;
@@ -47,7 +48,7 @@ class RevolvedRecorder {
     // A crossing is off by the resolution along the ray, and by its error.
     values[RevolvedRecord::margin] = values[RevolvedRecord::place_margin] = 4 * (most * scale.resolution + error);
     if (!(values[RevolvedRecord::least] <= PlanesRecorder::most_slope * most)) return false;
-    return walls_.put_walls(part, [&](const OutlineEdge& wall, std::size_t at) {
+    return walls_.put_walls(part, [&](const WallPart::Wall& wall, std::size_t at) {
       if (!wall.is_arc()) return true;
       const double radius = 0.5 / WallsRecorder::curvature_of(wall);
       values[at + RevolvedRecord::center_radius] = wall.from.x - radius / wall.gradient_length() * wall.normal({}).x;
@@ -57,10 +58,9 @@ class RevolvedRecorder {
   const std::vector<double>& values() { return walls_.values(); }
 
  private:
-  static OutlineEdge reversed(OutlineEdge edge) {
+  static void reverse(OutlineEdge& edge) {
     std::swap(edge.from, edge.to);
     edge.bulge = -edge.bulge;
-    return edge;
   }
 
   WallsRecorder walls_;

@@ -37,7 +37,7 @@ class WallsRecorder {
     using Wall = WallsRecord::Wall;
     std::size_t at = walls_;
     const Vec2 margin{2 * values_[WallsRecord::place_margin], 2 * values_[WallsRecord::place_margin]};
-    for (const OutlineEdge& wall : part.walls) {
+    for (const WallPart::Wall& wall : part.walls) {
       const Vec2 w = wall.chord(), known = part.place - wall.from;
       const double at_place = wall.distance(known);
       // Of an arc of more than half a circle, what is known of its errors does not hold.
