@@ -29,6 +29,7 @@ Field(std::string_view, Unit, T P::*, std::string_view) -> Field<P, T>;
 ///   name, scad_name, doc   what it is called (PrimitiveKind)
 ///   bounded                whether support() is finite in every direction
 ///   relative_cost          cost of spans() relative to the sphere's
+///   own_cost()             if any: the same of this very solid, where it depends on its size
 ///   fields()               a tuple of Field
 ///   check()                why the values make no solid; empty when they do
 ///   support(n)             max n·p over the solid; gives bounds under any affine map, and slabs of any normal

@@ -179,7 +179,10 @@ bool is_surface(const PrimitiveStore& store, PrimitiveId id) {
 }
 
 double cost(const PrimitiveStore& store, PrimitiveId id) {
-  return visit(store.lists(), id, [](const auto& primitive) { return primitive.relative_cost; });
+  return visit(store.lists(), id, [](const auto& primitive) -> double {
+    if constexpr (requires { primitive.own_cost(); }) return primitive.own_cost();
+    return primitive.relative_cost;
+  });
 }
 
 }  // namespace tenon
