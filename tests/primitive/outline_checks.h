@@ -1,10 +1,13 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "primitive/arc.h"
+#include "primitive/concept.h"
 #include "primitive/outline_edges.h"
 #include "primitive/random_placement.h"
 
@@ -51,5 +54,27 @@ inline int crossings(const OutlineEdge& edge, const Vec2& a, const Vec2& b) {
   }
   return count;
 }
+
+// What a solid says of each of a ray's crossings from its neighbourhood alone, against spans(), to the last bit.
+struct NearbyCrossings {
+  int asked = 0, found = 0;
+
+  template <class Solid>
+  void check(const Solid& solid, const LocalRay& ray, Random& random) {
+    Spans spans;
+    solid.spans(ray, spans);
+    for (const Crossing& c : spans) {
+      const double near = 1e-7;
+      ++asked;
+      const auto known = solid.crossing_near(ray, c.t + 0.5 * near * random.uniform(-1, 1), near, c.entering);
+      if (!known) continue;
+      ++found;
+      EXPECT_EQ(known->t, c.t);
+      EXPECT_EQ(known->face, c.face);
+      EXPECT_EQ(known->entering, c.entering);
+      EXPECT_GE(known->bound, c.bound);
+    }
+  }
+};
 
 }  // namespace tenon::outlines

@@ -150,7 +150,7 @@ TEST(PrismPieces, WallsTellThePrismWithinTheirBox) {
 // A crossing that is found from its neighbourhood is that of spans(), to the last bit.
 TEST(PrismPieces, CrossingsFoundFromNearbyAreThoseOfSpans) {
   Random random(92);
-  int asked = 0, found = 0;
+  outlines::NearbyCrossings crossings;
   for (int round = 0; round < 15000; ++round) {
     Prism prism = random_prism(random, random.chance(0.5));
     if (random.chance(0.3)) prism.scale = random.uniform(0.3, 2);
@@ -162,22 +162,10 @@ TEST(PrismPieces, CrossingsFoundFromNearbyAreThoseOfSpans) {
       const double error = random.magnitude(-15, -10);
       ray.origin_error = {error, error, error};
       ray.direction_error = 0.1 * ray.origin_error;
-      Spans spans;
-      prism.spans(ray, spans);
-      for (const Crossing& c : spans) {
-        const double near = 1e-7;
-        ++asked;
-        const auto known = prism.crossing_near(ray, c.t + 0.5 * near * random.uniform(-1, 1), near, c.entering);
-        if (!known) continue;
-        ++found;
-        EXPECT_EQ(known->t, c.t);
-        EXPECT_EQ(known->face, c.face);
-        EXPECT_EQ(known->entering, c.entering);
-        EXPECT_GE(known->bound, c.bound);
-      }
+      crossings.check(prism, ray, random);
     }
   }
-  EXPECT_GT(found, asked / 2);
+  EXPECT_GT(crossings.found, crossings.asked / 2);
 }
 
 }  // namespace

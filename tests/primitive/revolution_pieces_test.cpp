@@ -95,7 +95,7 @@ TEST(RevolutionPieces, CornersThatAreGivenTwiceBoundNothing) {
 // A crossing that is found from its neighbourhood is that of spans(), to the last bit.
 TEST(RevolutionPieces, CrossingsFoundFromNearbyAreThoseOfSpans) {
   Random random(95);
-  int asked = 0, found = 0;
+  outlines::NearbyCrossings crossings;
   for (int round = 0; round < 15000; ++round) {
     const Revolution solid = random_revolution(random, random.chance(0.5));
     for (int i = 0; i < 10; ++i) {
@@ -107,22 +107,10 @@ TEST(RevolutionPieces, CrossingsFoundFromNearbyAreThoseOfSpans) {
       const double error = random.magnitude(-15, -10);
       ray.origin_error = {error, error, error};
       ray.direction_error = 0.1 * ray.origin_error;
-      Spans spans;
-      solid.spans(ray, spans);
-      for (const Crossing& c : spans) {
-        const double near = 1e-7;
-        ++asked;
-        const auto known = solid.crossing_near(ray, c.t + 0.5 * near * random.uniform(-1, 1), near, c.entering);
-        if (!known) continue;
-        ++found;
-        EXPECT_EQ(known->t, c.t);
-        EXPECT_EQ(known->face, c.face);
-        EXPECT_EQ(known->entering, c.entering);
-        EXPECT_GE(known->bound, c.bound);
-      }
+      crossings.check(solid, ray, random);
     }
   }
-  EXPECT_GT(found, asked / 2);
+  EXPECT_GT(crossings.found, crossings.asked / 2);
 }
 
 }  // namespace
