@@ -222,10 +222,10 @@ class RevolvedWalls {
 };
 
 /// The only part of a turned outline that a ray meets from t_in to t_out. Where it meets two, or crosses more than two
-/// walls, it is not sure.
+/// walls, it is not sure. Not a part of its callers: that would slow down what they do in cells of other kinds.
 template <class D>
-HWY_INLINE Stretch<D> RevolvedStretch(D d, const SceneRays<D>& ray, const SharedRecord<D>& r, hn::Vec<D> t_in,
-                                      hn::Vec<D> t_out, hn::Mask<D> lanes) {
+HWY_NOINLINE Stretch<D> RevolvedStretch(D d, const SceneRays<D>& ray, const SharedRecord<D>& r, hn::Vec<D> t_in,
+                                        hn::Vec<D> t_out, hn::Mask<D> lanes) {
   Vec3Lanes<D> place;
   const auto shift = Approach(ray, Sub3(ray.origin, Load3(d, r, WallsRecord::center)), place);
   auto o = Map3(d, r, WallsRecord::map, place);
