@@ -81,9 +81,7 @@ class Revolution::MeridianBox {
 
   /// Of the box's middle.
   const Vec2& place() const { return place_; }
-  /// A rectangle around it.
-  const Vec2& lower() const { return lower_; }
-  const Vec2& upper() const { return upper_; }
+  /// Whether a rectangle around it meets another.
   bool overlaps(const Vec2& lower, const Vec2& upper) const {
     return lower.x <= upper_.x && lower_.x <= upper.x && lower.y <= upper_.y && lower_.y <= upper.y;
   }
