@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "primitive/clip.h"
@@ -13,8 +14,22 @@ struct EdgeCrossing : BoundedRoot {
   std::uint32_t edge = 0;
   bool rising = false;  ///< towards the side that the edge's normal points to
   bool sure = false;    ///< the exact line crosses this edge, once, within the interval; else it may or may not
-  bool given = false;   ///< the face the ray starts on: at exactly t = 0
+  bool given = false;   ///< the face the ray starts on: at exactly t = 0, and lookups cannot tell within the interval
+
+  /// Of the edge whose wall the ray starts on.
+  /// @param doubt  how far from there lookups may still take the wrong side
+  static EdgeCrossing at_start(std::uint32_t edge, bool rising, double doubt) {
+    return {{0, -doubt, doubt}, edge, rising, true, true};
+  }
 };
+
+/// How far from t = 0 a function that is zero there, slope t ± half_curvature t², may be within an error of zero.
+inline double doubt_around_zero(double slope, double half_curvature, double error) {
+  if (!(error > 0)) return 0;
+  const double b = std::fabs(slope), a = std::fabs(half_curvature);
+  // At 2 E / b it is at least 2 E - 4 a E² / b², and where that is less than E, at 3 √(E / a) at least 9 E - 6 E.
+  return 4 * a * error <= b * b ? 2 * error / b : 3 * std::sqrt(error / a);
+}
 
 /// The part of a line that was searched for crossings.
 struct SearchedPart {

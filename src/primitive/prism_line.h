@@ -154,12 +154,10 @@ class Prism::Line {
   }
 
   void add(EdgeCrossing crossing, double begin, double end, std::vector<EdgeCrossing>& out) const {
-    if (!crossing.given) {
-      crossing.lo = std::max(crossing.lo, begin);
-      crossing.hi = std::min(crossing.hi, end);
-      if (!(crossing.lo <= crossing.hi)) return;
-      crossing.t = std::clamp(crossing.t, crossing.lo, crossing.hi);
-    }
+    crossing.lo = std::max(crossing.lo, begin);
+    crossing.hi = std::min(crossing.hi, end);
+    if (!(crossing.lo <= crossing.hi)) return;
+    crossing.t = std::clamp(crossing.t, crossing.lo, crossing.hi);
     if (std::isfinite(crossing.t)) out.push_back(crossing);
   }
 
@@ -172,12 +170,14 @@ class Prism::Line {
     const BoundedLine f = along({w.y, -w.x}, edge.from);
     EdgeCrossing crossing{{0.5 * begin + 0.5 * end, begin, end}, index, f.slope > 0, a_sure && b_sure, false};
     if (std::fabs(f.slope) > f.slope_error) {
-      crossing.given = on_edge_ == static_cast<int>(index);
-      const End at = plane_end(f, 0, crossing.given);
+      const End at = plane_end(f, 0, false);
+      if (on_edge_ == static_cast<int>(index)) {
+        out.push_back(EdgeCrossing::at_start(index, f.slope > 0, std::max({0.0, -at.lo, at.hi})));
+        return;
+      }
       crossing.t = at.t;
       crossing.lo = at.lo;
       crossing.hi = at.hi;
-      crossing.sure |= crossing.given;
     } else {
       // All but parallel: it meets the wall's plane where it is over the edge, or not at all.
       const double t = 0.5 * begin + 0.5 * end, half = 0.5 * (end - begin);
@@ -220,6 +220,10 @@ class Prism::Line {
     const double scale_error = s_error_ + reach * s_slope_error_ + gamma(2) * (ls + std::fabs(at) * ls_slope);
     const double p_most = lp + away * ld + place, s_most = ls + away * ls_slope + scale_error;
 
+    const double by_place = (ab * (2 * p_most + lw * s_most) + ak * lw * s_most) * place;
+    const double by_scale = (ab + ak) * lw * p_most * scale_error;
+    const double error = by_place + by_scale + gamma(24) * (c_size + away * (2 * b_size + away * a_size));
+
     QuadraticSet set;
     if (given) {
       const double d_error = length(r.d_error) + gamma(1) * ld, s_slope_error = s_slope_error_ + gamma(1) * ls_slope;
@@ -236,9 +240,6 @@ class Prism::Line {
       const auto shape = a >= 0 ? QuadraticSet::Shape::between : QuadraticSet::Shape::outside;
       set = other.t >= 0 ? QuadraticSet{shape, here, other} : QuadraticSet{shape, other, here};
     } else {
-      const double by_place = (ab * (2 * p_most + lw * s_most) + ak * lw * s_most) * place;
-      const double by_scale = (ab + ak) * lw * p_most * scale_error;
-      const double error = by_place + by_scale + gamma(24) * (c_size + away * (2 * b_size + away * a_size));
       set = solve_quadratic(a, b, c, error);
     }
     if (set.shape == QuadraticSet::Shape::none || set.shape == QuadraticSet::Shape::all) return;
@@ -247,12 +248,13 @@ class Prism::Line {
     for (const bool first : {true, false}) {
       const BoundedRoot& root = first ? set.first : set.second;
       const bool is_start = given && root.t == 0 && root.lo == 0 && root.hi == 0;
-      const End moved = is_start ? End{} : lateral_end(root, at, 0);
-      EdgeCrossing crossing{{moved.t, moved.lo, moved.hi}, index, first == first_rises, is_start, is_start};
       if (is_start) {
-        add(crossing, begin, end, out);
+        const double doubt = doubt_around_zero(2 * b, a, error + std::fabs(c));
+        out.push_back(EdgeCrossing::at_start(index, first == first_rises, doubt));
         continue;
       }
+      const End moved = lateral_end(root, at, 0);
+      EdgeCrossing crossing{{moved.t, moved.lo, moved.hi}, index, first == first_rises, false, false};
       crossing.lo = std::max(crossing.lo, begin);
       crossing.hi = std::min(crossing.hi, end);
       if (!(crossing.lo <= crossing.hi)) continue;
@@ -262,10 +264,10 @@ class Prism::Line {
       const double least = std::min(beyond(crossing.lo), beyond(crossing.hi));
       const double most = std::max(beyond(crossing.lo), beyond(crossing.hi));
       const double t_most = std::max(std::fabs(crossing.lo), std::fabs(crossing.hi));
-      const double error =
+      const double slack =
           m.value_error + t_most * m.slope_error + gamma(4) * (std::fabs(m.value) + t_most * std::fabs(m.slope));
-      if (most < -error) continue;
-      crossing.sure = least > error && crossing.lo > begin && crossing.hi < end;
+      if (most < -slack) continue;
+      crossing.sure = least > slack && crossing.lo > begin && crossing.hi < end;
       add(crossing, begin, end, out);
     }
   }

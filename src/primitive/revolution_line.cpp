@@ -185,7 +185,7 @@ class Revolution::Line::RootCollector {
     out_.push_back(crossing);
   }
   void add_unknown() { out_.push_back({{0.5 * begin_ + 0.5 * end_, begin_, end_}, index_, false, false, false}); }
-  void add_start(bool rising) { out_.push_back({{0, 0, 0}, index_, rising, true, true}); }
+  void add_start(bool rising, double doubt) { out_.push_back(EdgeCrossing::at_start(index_, rising, doubt)); }
 
  private:
   const Line& line_;
@@ -221,7 +221,8 @@ void Revolution::Line::cross_edge(std::uint32_t index, const OutlineEdge& edge, 
     const DeflatedProfile g(f);
     find_roots(g, begin, end, f.turns(begin, end), roots);
     for (const CrossingRoot& root : roots) collect.add(root, root.rising == (root.t > 0));
-    collect.add_start(g.value(0) > 0);
+    const double slope = g.value(0), error = f.error(0) + std::fabs(f.value(0));
+    collect.add_start(slope > 0, doubt_around_zero(slope, f.half_curvature(0), error));
     return;
   }
   if (unsure_begin || unsure_end) collect.add_unknown();

@@ -78,6 +78,7 @@ class TwistedLine {
     static bool may_cross(const OutlineEdge&) { return true; }
   };
 
+  EdgeCrossing start_on(std::uint32_t index, const OutlineEdge& edge) const;
   int parts_beside_walls(const Interval& whole, Interval (&parts)[2]) const;
   StraightWay straight_way(const Interval& interval) const;
   template <class Way>
