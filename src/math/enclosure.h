@@ -50,6 +50,31 @@ struct BallArithmetic {
   }
 };
 
+/// A function's value and its derivative at one place, as they are computed (a dual number).
+struct Dual {
+  double value = 0, slope = 0;
+};
+
+/// The arithmetic of dual numbers, by the names of EnclosureArithmetic.
+struct DualArithmetic {
+  using Number = Dual;
+
+  static Dual constant(const Ball& value) { return {value.middle, 0}; }
+  static Dual add(const Dual& a, const Dual& b) { return {a.value + b.value, a.slope + b.slope}; }
+  static Dual subtract(const Dual& a, const Dual& b) { return {a.value - b.value, a.slope - b.slope}; }
+  static Dual multiply(const Dual& a, const Dual& b) {
+    return {a.value * b.value, a.slope * b.value + a.value * b.slope};
+  }
+  static Dual multiply(double a, const Dual& b) { return {a * b.value, a * b.slope}; }
+  static Dual multiply(const Ball& a, const Dual& b) { return multiply(a.middle, b); }
+  static void sine_cosine(const Dual& q, Dual& sine, Dual& cosine) {
+    const SineCosine value = quarter_turn_sine_cosine(q.value);
+    const double turn = half_pi * q.slope;
+    sine = {value.sine, value.cosine * turn};
+    cosine = {value.cosine, -value.sine * turn};
+  }
+};
+
 /// What is known of a smooth function of t over an interval: its value and its derivative in the middle, its second
 /// derivative anywhere, and so by Taylor's theorem its values and its derivative anywhere.
 struct Enclosure {

@@ -46,9 +46,9 @@ Field(std::string_view, Unit, T P::*, std::string_view) -> Field<P, T>;
 ///                          only one within twice that; nothing where that takes the whole of spans() to tell
 ///   planes_within(box, planes)   if any: how some planes, with normals of length 1, make up the part of the solid
 ///                          within the box (PlanarPart)
-///   walls_within(box, most, part)   if any: the solid within the box as an outline that is swept or turned
-///                          (SweptPart, RevolvedPart); false where more walls than `most` go through it, or that is not
-///                          certain
+///   walls_within(box, most, part)   if any: the solid within the box as an outline that is swept, twisted or turned
+///                          (SweptPart, TwistedPart, RevolvedPart); false where more walls than `most` go through it,
+///                          or that is not certain
 template <class P>
 concept SolidPrimitive = std::semiregular<P> &&
     requires(const P& p, const LocalRay& ray, Spans& out, const LocalBox& box, const Vec3& v, std::uint32_t face) {

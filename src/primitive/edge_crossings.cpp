@@ -141,6 +141,21 @@ bool find_boundary_crossings(std::vector<EdgeCrossing>& crossings, const Searche
   return ClusterWalk(crossings, part, is_inside, clusters).run(found);
 }
 
+std::optional<Crossing> crossing_between_caps(const Chord& slab, std::span<const EdgeCrossing> crossings, double t,
+                                              double near, bool entering, std::uint32_t first_wall) {
+  const double first = t - 2 * near, last = t + 2 * near;
+  const End& cap = entering ? slab.enter : slab.leave;
+  if (crossings.empty()) {
+    const bool is_known = !cap.given && cap.lo >= first && cap.hi <= last;
+    return is_known && std::fabs(cap.t - t) <= near ? std::optional(crossing_at(cap, entering)) : std::nullopt;
+  }
+  const EdgeCrossing& wall = crossings.front();
+  const bool is_known = crossings.size() == 1 && wall.sure && !wall.given && wall.lo >= first && wall.hi <= last;
+  const bool is_clear = entering ? cap.hi < wall.lo : cap.lo > wall.hi;
+  if (!is_known || !is_clear || std::fabs(wall.t - t) > near) return std::nullopt;
+  return crossing_at({wall, first_wall + face_of_edge(wall.edge, wall.rising, entering)}, entering);
+}
+
 void emit_between_caps(const Chord& slab, const std::vector<BoundaryCrossing>& boundary, bool inside,
                        std::uint32_t first_wall, Spans& out) {
   const std::size_t first = out.size();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "primitive/clip.h"
@@ -73,6 +75,14 @@ bool find_boundary_crossings(std::vector<EdgeCrossing>& crossings, const Searche
 /// @param first_wall  is added to the numbers of their faces
 void emit_between_caps(const Chord& slab, const std::vector<BoundaryCrossing>& boundary, bool inside,
                        std::uint32_t first_wall, Spans& out);
+
+/// The crossing of a swept outline that is within `near` of t, if it is certainly the only one within twice that.
+///
+/// @param slab        the part of the line between the caps
+/// @param crossings   with edges, all of those that may be one with it
+/// @param first_wall  is added to the numbers of their faces
+std::optional<Crossing> crossing_between_caps(const Chord& slab, std::span<const EdgeCrossing> crossings, double t,
+                                              double near, bool entering, std::uint32_t first_wall);
 
 /// The number of a face of a swept outline: its edge, and whether the solid lies on the side that the edge's normal
 /// points to. By the even-odd rule that may differ along one edge.

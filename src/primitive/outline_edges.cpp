@@ -49,13 +49,17 @@ void find_box(OutlineEdge& edge) {
 
 }  // namespace
 
+OutlineEdge OutlineEdge::between(const Vec2& from, const Vec2& to, double bulge) {
+  OutlineEdge edge{from, to, bulge, {}, {}};
+  find_box(edge);
+  return edge;
+}
+
 OutlineEdges::OutlineEdges(const Outline& outline) {
   for (const auto& loop : outline.loops) {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const OutlineCorner &a = loop[i], &b = loop[(i + 1) % loop.size()];
-      OutlineEdge edge{{a.x, a.y}, {b.x, b.y}, a.bulge, {}, {}};
-      find_box(edge);
-      edges_.push_back(edge);
+      edges_.push_back(OutlineEdge::between({a.x, a.y}, {b.x, b.y}, a.bulge));
     }
   }
   // A corner that is given twice has an edge of no length, which bounds nothing.

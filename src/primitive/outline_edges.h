@@ -19,6 +19,9 @@ struct OutlineEdge {
   double bulge = 0;
   Vec2 lower, upper;  ///< a box around it
 
+  /// With the box around it.
+  static OutlineEdge between(const Vec2& from, const Vec2& to, double bulge);
+
   bool is_arc() const { return bulge != 0; }
   Vec2 chord() const { return to - from; }
   /// The factor of the cross product, to a few roundings of itself.

@@ -49,24 +49,9 @@ std::optional<Crossing> Prism::crossing_near(const LocalRay& ray, double t, doub
   Line line(*this, ray);
   if (!line.find_part(edges_, slab) || line.blur() >= 0) return std::nullopt;
   // Whatever may be one with a crossing there, if that is known to within `near`.
-  const double first = t - 2 * near, last = t + 2 * near;
   thread_local std::vector<EdgeCrossing> crossings;
-  line.cross_edges(edges_, {first, last}, crossings);
-  if (crossings.empty()) return cap_near(slab, t, near, entering);
-  const EdgeCrossing& wall = crossings.front();
-  const bool is_known = crossings.size() == 1 && wall.sure && !wall.given && wall.lo >= first && wall.hi <= last;
-  const bool is_clear = entering ? slab.enter.hi < wall.lo : slab.leave.lo > wall.hi;
-  if (!is_known || !is_clear || std::fabs(wall.t - t) > near) return std::nullopt;
-  return crossing_at({wall, walls + face_of_edge(wall.edge, wall.rising, entering)}, entering);
-}
-
-// Where no wall is.
-std::optional<Crossing> Prism::cap_near(const Chord& slab, double t, double near, bool entering) const {
-  const End& cap = entering ? slab.enter : slab.leave;
-  if (cap.given || !(std::fabs(cap.t - t) <= near && cap.lo >= t - 2 * near && cap.hi <= t + 2 * near)) {
-    return std::nullopt;
-  }
-  return crossing_at(cap, entering);
+  line.cross_edges(edges_, {t - 2 * near, t + 2 * near}, crossings);
+  return crossing_between_caps(slab, crossings, t, near, entering, walls);
 }
 
 namespace {

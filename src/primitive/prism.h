@@ -61,7 +61,6 @@ class Prism {
 
  private:
   class Line;
-  std::optional<Crossing> cap_near(const Chord& slab, double t, double near, bool entering) const;
 
   double slope() const { return (scale - 1) / h; }
   double scale_at(double z) const { return 1 + (z - low()) * slope(); }

@@ -91,6 +91,11 @@ Ball TwistedLine::edge_at(const OutlineEdge& edge, double t) const {
   return edge_function(BallArithmetic(), edge, move_within({t, t}));
 }
 
+Dual TwistedLine::edge_dual(const OutlineEdge& edge, double t) const {
+  const auto along = [&](int axis) { return Dual{ray_.origin[axis] + t * ray_.direction[axis], ray_.direction[axis]}; };
+  return edge_function(DualArithmetic(), edge, move(DualArithmetic(), {along(0), along(1), along(2)}));
+}
+
 void TwistedLine::cross_edges(const OutlineEdges& edges, const Interval& whole, const LineWindow& window,
                               std::vector<EdgeCrossing>& out) {
   out.clear();
@@ -103,7 +108,7 @@ void TwistedLine::cross_edges(const OutlineEdges& edges, const Interval& whole, 
     if (is_scaled) {
       search<EnclosedWay>(edges, parts[i], turn, out);
     } else {
-      search<StraightWay>(edges, parts[i], turn, out);
+      search<Capsule>(edges, parts[i], turn, out);
     }
   }
   std::erase_if(out, [&](const EdgeCrossing& c) { return !window.meets(c.lo, c.hi); });
@@ -157,7 +162,7 @@ int TwistedLine::parts_beside_walls(const Interval& whole, Interval (&parts)[2])
 
 // By Taylor's theorem. With the speed w and the angular speed a in a plane that turns, the acceleration is 2 a w across
 // the way and a² r to the axis.
-TwistedLine::StraightWay TwistedLine::straight_way(const Interval& interval) const {
+Capsule TwistedLine::straight_way(const Interval& interval) const {
   const double t = interval.middle(), half = interval.half_width(), a = turn_per_t_;
   const Vec3 p = ray_.origin + t * ray_.direction;
   const Vec2 d{ray_.direction.x, ray_.direction.y};
@@ -177,23 +182,6 @@ TwistedLine::StraightWay TwistedLine::straight_way(const Interval& interval) con
   const double slack =
       length(Vec2{error.x, error.y}) + (turn_error + gamma(16)) * (far + sweep_.reach) * (1 + std::fabs(a) * half);
   return {place, half * speed, (bend + slack) * (1 + gamma(8))};
-}
-
-bool TwistedLine::StraightWay::may_touch(const Vec2& lower, const Vec2& upper) const {
-  const double x = std::fabs(way.x) + spread, y = std::fabs(way.y) + spread;
-  return place.x - x <= upper.x && lower.x <= place.x + x && place.y - y <= upper.y && lower.y <= place.y + y;
-}
-
-// q(p + v) = q(p) + grad q(p)·v + bulge v².
-bool TwistedLine::StraightWay::may_cross(const OutlineEdge& edge) const {
-  const Vec2 p = place - edge.from, normal = edge.normal(p);
-  const double moved = length(way) + spread, from = length(p), chord = length(edge.chord());
-  const double change = std::fabs(dot(normal, way)) + length(normal) * spread + std::fabs(edge.bulge) * moved * moved;
-  // Of q, of its gradient and of the terms above; that of p and the chord is part of the spread.
-  const double rounding =
-      gamma(16) * (from * (std::fabs(edge.bulge) * (from + chord) + std::fabs(edge.flatness()) * chord) +
-                   edge.steepness(from) * moved + change);
-  return std::fabs(edge.value(p)) <= change + rounding;
 }
 
 // A box of the plane, as large as the scales make it.
@@ -259,7 +247,8 @@ void TwistedLine::cross_edge(std::uint32_t index, const OutlineEdge& edge, const
   }
   const double middle = interval.middle();
   if (is_in_doubt(edge, interval, f) || depth >= deepest || --looks_ <= 0) {
-    report(index, edge, middle, interval, f.slope.middle > 0, false, out);
+    const Interval there = clip_to_edge(edge, interval);
+    report(index, edge, there.middle(), there, f.slope.middle > 0, false, out);
     return;
   }
   for (const Interval& half : {Interval{interval.begin, middle}, Interval{middle, interval.end}}) {
@@ -299,15 +288,56 @@ void TwistedLine::cross_start(std::uint32_t index, const OutlineEdge& edge, cons
 }
 
 // The function is monotonic over the interval.
-void TwistedLine::narrow_down(std::uint32_t index, const OutlineEdge& edge, Interval interval, Enclosure f,
-                              std::vector<EdgeCrossing>& out) const {
+void TwistedLine::narrow_down(std::uint32_t index, const OutlineEdge& edge, const Interval& interval,
+                              const Enclosure& f, std::vector<EdgeCrossing>& out) const {
   const Ball at_begin = edge_at(edge, interval.begin), at_end = edge_at(edge, interval.end);
   const bool sure = at_begin.has_sign() && at_end.has_sign();
   if (sure && at_begin.is_positive() == at_end.is_positive()) return;
   const bool rising = f.slope.middle > 0;
-  double place = interval.middle();
+  if (sure) {
+    const double place = approach(edge, interval, at_begin.middle / (at_begin.middle - at_end.middle));
+    Interval around;
+    if (is_proven_near(edge, interval, place, around)) {
+      report(index, edge, place, around, rising, true, out);
+      return;
+    }
+  }
+  double place = 0;
+  Interval around = interval;
+  if (narrow_by_enclosures(edge, f, around, place)) report(index, edge, place, around, rising, sure, out);
+}
+
+// Newton's method, as it is computed, until its steps are roundings.
+// @param share  of the interval, where it begins
+double TwistedLine::approach(const OutlineEdge& edge, const Interval& interval, double share) const {
+  double t = interval.begin + share * (interval.end - interval.begin), last = Box3::inf;
+  for (;;) {
+    const Dual f = edge_dual(edge, t);
+    const double next = std::clamp(t - f.value / f.slope, interval.begin, interval.end), step = std::fabs(next - t);
+    if (!(step < 0.5 * last)) return t;
+    t = next;
+    last = step;
+  }
+}
+
+// Whether the one crossing of an interval lies so near to a place that the signs beside it prove it. Where the slope is
+// what it is there, the function is at least half as large again as its error from two and a half errors on.
+bool TwistedLine::is_proven_near(const OutlineEdge& edge, const Interval& interval, double place,
+                                 Interval& around) const {
+  const double slope = std::fabs(edge_dual(edge, place).slope);
+  const double reach = 2.5 * edge_at(edge, place).radius / slope + gamma(4) * std::fabs(place);
+  around = {std::max(interval.begin, place - reach), std::min(interval.end, place + reach)};
+  const Ball before = edge_at(edge, around.begin), behind = edge_at(edge, around.end);
+  return before.has_sign() && behind.has_sign() && before.is_positive() != behind.is_positive();
+}
+
+// Newton's operator: middle - f(middle) / slope, for every slope there may be.
+// @param interval  over which f is known
+// @return whether anything is left: a line that misses within its errors leaves no common part
+bool TwistedLine::narrow_by_enclosures(const OutlineEdge& edge, Enclosure f, Interval& interval, double& place) const {
+  const bool rising = f.slope.middle > 0;
+  place = interval.middle();
   for (int step = 0; step < deepest; ++step) {
-    // Newton's operator: middle - f(middle) / slope, for every slope there may be.
     const double middle = interval.middle(), slope = std::fabs(f.slope.middle);
     const double least = slope - f.slope.radius;
     if (!(least > 0)) break;
@@ -318,39 +348,59 @@ void TwistedLine::narrow_down(std::uint32_t index, const OutlineEdge& edge, Inte
     const double rounding = gamma(6) * (std::fabs(next.begin) + std::fabs(next.end)) + gamma(2) * std::fabs(middle);
     next = {std::max(interval.begin, middle + next.begin - rounding),
             std::min(interval.end, middle + next.end + rounding)};
-    // A line that misses within its errors leaves no common part.
-    if (!(next.begin <= next.end)) return;
+    if (!(next.begin <= next.end)) return false;
     place = std::clamp(middle + distance / slope, next.begin, next.end);
     const bool is_settled = !(next.half_width() < 0.5 * interval.half_width());
     interval = next;
     if (is_settled) break;
     f = edge_over(edge, interval);
   }
-  report(index, edge, place, interval, rising, sure, out);
+  return true;
 }
 
-// Where the whole line or circle of an edge is crossed; of the edge itself that may be beside its ends.
-void TwistedLine::report(std::uint32_t index, const OutlineEdge& edge, double t, const Interval& interval, bool rising,
-                         bool sure, std::vector<EdgeCrossing>& out) const {
+// Where a place on an edge's line or circle is along the edge, within an interval.
+TwistedLine::Along TwistedLine::along_edge(const OutlineEdge& edge, const Interval& interval) const {
   const Motion<Ball> m = move_within(interval);
   const Ball px = m.ux - edge.from.x * m.s, py = m.uy - edge.from.y * m.s;
   const Vec2 w = edge.chord();
   // What the rounding of the chord moves.
   const double slack = gamma(4) * (std::fabs(w.x) + std::fabs(w.y)) *
                        (std::fabs(px.middle) + px.radius + std::fabs(py.middle) + py.radius);
+  Along result;
   const auto demand = [&](const Ball& value) {
-    if (value.greatest() < -slack) return false;
-    sure = sure && value.least() > slack;
-    return true;
+    result.may_be_there = result.may_be_there && value.greatest() >= -slack;
+    result.is_there = result.is_there && value.least() > slack;
   };
   if (edge.is_arc()) {
     const Ball side = w.y * px - w.x * py;
-    if (!demand(edge.bulge > 0 ? side : -1 * side)) return;
+    demand(edge.bulge > 0 ? side : -1 * side);
   } else {
     const Ball along = w.x * px + w.y * py;
-    if (!demand(along) || !demand(dot(w, w) * m.s - along)) return;
+    demand(along);
+    demand(dot(w, w) * m.s - along);
   }
-  out.push_back({{t, interval.begin, interval.end}, index, rising, sure, false});
+  return result;
+}
+
+// What of an interval is not certainly beside an edge's ends: in steps that halve, from both sides.
+TwistedLine::Interval TwistedLine::clip_to_edge(const OutlineEdge& edge, Interval interval) const {
+  constexpr int steps = 12;
+  double step = 0.5 * (interval.end - interval.begin);
+  for (int i = 0; i < steps; ++i, step *= 0.5) {
+    const Interval first{interval.begin, std::min(interval.begin + step, interval.end)};
+    if (!along_edge(edge, first).may_be_there) interval.begin = first.end;
+    const Interval last{std::max(interval.end - step, interval.begin), interval.end};
+    if (!along_edge(edge, last).may_be_there) interval.end = last.begin;
+  }
+  return interval;
+}
+
+// Where the whole line or circle of an edge is crossed; of the edge itself that may be beside its ends.
+void TwistedLine::report(std::uint32_t index, const OutlineEdge& edge, double t, const Interval& interval, bool rising,
+                         bool sure, std::vector<EdgeCrossing>& out) const {
+  const Along along = along_edge(edge, interval);
+  if (!along.may_be_there) return;
+  out.push_back({{t, interval.begin, interval.end}, index, rising, sure && along.is_there, false});
 }
 
 }  // namespace tenon

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "math/enclosure.h"
+#include "primitive/capsule.h"
 #include "primitive/edge_crossings.h"
 #include "primitive/local_ray.h"
 #include "primitive/outline_edges.h"
@@ -22,9 +23,9 @@ struct TwistedSweep {
 /// and U = R(turn) (x scale_y, y scale_x), so that nothing is divided, and a tip is no exception.
 ///
 /// Where it crosses an edge is isolated by halving: of an interval over which the edge's function cannot vanish there
-/// is nothing to report, of one over which it is monotonic at most one crossing, which Newton's operator narrows down
-/// (Moore, "Interval Analysis", 1966). An interval of which neither is certain and which is no wider than the errors
-/// is reported as a crossing in doubt.
+/// is nothing to report, of one over which it is monotonic at most one crossing. Newton's method finds it, and signs on
+/// either side prove it; where they do not, Newton's operator narrows it down (Moore, "Interval Analysis", 1966). An
+/// interval of which neither is certain and which is no wider than the errors is reported as a crossing in doubt.
 class TwistedLine {
  public:
   TwistedLine(const TwistedSweep& sweep, const LocalRay& ray, int on_edge);
@@ -60,17 +61,9 @@ class TwistedLine {
                                                    const Motion<typename Arithmetic::Number>& motion);
   Enclosure edge_over(const OutlineEdge& edge, const Interval& interval) const;
   Ball edge_at(const OutlineEdge& edge, double t) const;
+  Dual edge_dual(const OutlineEdge& edge, double t) const;
 
-  /// The way of the line in the plane of the outline over an interval, in a sweep that does not scale: place + s way
-  /// for s from -1 to 1, and no farther from that than `spread`.
-  struct StraightWay {
-    Vec2 place, way;
-    double spread = 0;
-
-    bool may_touch(const Vec2& lower, const Vec2& upper) const;
-    bool may_cross(const OutlineEdge& edge) const;
-  };
-  /// The same for any sweep, by boxes alone.
+  /// The way of the line in the plane of the outline over an interval, in any sweep, by boxes alone.
   struct EnclosedWay {
     Motion<Enclosure> motion;
 
@@ -80,7 +73,8 @@ class TwistedLine {
 
   EdgeCrossing start_on(std::uint32_t index, const OutlineEdge& edge) const;
   int parts_beside_walls(const Interval& whole, Interval (&parts)[2]) const;
-  StraightWay straight_way(const Interval& interval) const;
+  /// The same of a sweep that does not scale.
+  Capsule straight_way(const Interval& interval) const;
   template <class Way>
   void search(const OutlineEdges& edges, const Interval& interval, double turn, std::vector<EdgeCrossing>& out);
   bool is_in_doubt(const OutlineEdge& edge, const Interval& interval, const Enclosure& f) const;
@@ -88,8 +82,16 @@ class TwistedLine {
                   std::vector<EdgeCrossing>& out);
   void cross_start(std::uint32_t index, const OutlineEdge& edge, const Interval& interval, const Enclosure& f,
                    int depth, std::vector<EdgeCrossing>& out);
-  void narrow_down(std::uint32_t index, const OutlineEdge& edge, Interval interval, Enclosure f,
+  void narrow_down(std::uint32_t index, const OutlineEdge& edge, const Interval& interval, const Enclosure& f,
                    std::vector<EdgeCrossing>& out) const;
+  double approach(const OutlineEdge& edge, const Interval& interval, double share) const;
+  bool is_proven_near(const OutlineEdge& edge, const Interval& interval, double place, Interval& around) const;
+  bool narrow_by_enclosures(const OutlineEdge& edge, Enclosure f, Interval& interval, double& place) const;
+  struct Along {
+    bool may_be_there = true, is_there = true;
+  };
+  Along along_edge(const OutlineEdge& edge, const Interval& interval) const;
+  Interval clip_to_edge(const OutlineEdge& edge, Interval interval) const;
   void report(std::uint32_t index, const OutlineEdge& edge, double t, const Interval& interval, bool rising, bool sure,
               std::vector<EdgeCrossing>& out) const;
 

@@ -37,27 +37,15 @@ void TwistedPrism::prepare() {
 
 void TwistedPrism::spans_within(const LocalRay& ray, const LineWindow& window, Spans& out) const {
   Chord slab;
-  if (!clip_slab(ray, 2, low(), high(), bottom, top, slab)) return;
-  // The part beside the axis, as far as any wall reaches.
-  constexpr std::uint32_t no_face = 0x7fffffff;
-  Chord over;
-  for (int axis = 0; axis < 2; ++axis) {
-    if (!clip_slab(ray, axis, -reach_, reach_, no_face, no_face, over)) return;
-  }
   SearchedPart whole;
-  whole.begin = std::max(over.enter.lo, slab.enter.lo);
-  whole.end = std::min(over.leave.hi, slab.leave.hi);
-  whole.outside_before = over.enter.lo >= slab.enter.lo;
-  whole.outside_after = over.leave.hi <= slab.leave.hi;
-  if (whole.is_empty() || !std::isfinite(whole.begin) || !std::isfinite(whole.end)) return;
+  if (!find_part(ray, slab, whole)) return;
   const SearchedPart part = whole.within(window);
   if (part.is_empty()) return;
   // A cap beyond the window is not where a chord within it ends.
   if (slab.enter.hi < window.begin) slab.enter = Chord().enter;
   if (slab.leave.lo > window.end) slab.leave = Chord().leave;
-  const int on_edge = ray.on_face < static_cast<int>(walls) ? -1 : (ray.on_face - static_cast<int>(walls)) / 2;
 
-  TwistedLine line({low(), 1 / h, twist / 90, scale_x - 1, scale_y - 1, clearance_, reach_}, ray, on_edge);
+  TwistedLine line = line_along(ray);
   thread_local std::vector<EdgeCrossing> crossings;
   thread_local std::vector<BoundaryCrossing> boundary;
   line.cross_edges(edges_, {whole.begin, whole.end}, window, crossings);
@@ -69,6 +57,34 @@ void TwistedPrism::spans_within(const LocalRay& ray, const LineWindow& window, S
   const std::size_t first = out.size();
   emit_between_caps(slab, boundary, inside, walls, out);
   if (scale_x == 0 || scale_y == 0) drop_chords_beyond_tip(ray, first, out);
+}
+
+// The part of a ray between the caps and beside the axis as far as any wall reaches; false where there is none.
+bool TwistedPrism::find_part(const LocalRay& ray, Chord& slab, SearchedPart& whole) const {
+  if (!clip_slab(ray, 2, low(), high(), bottom, top, slab)) return false;
+  constexpr std::uint32_t no_face = 0x7fffffff;
+  Chord over;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!clip_slab(ray, axis, -reach_, reach_, no_face, no_face, over)) return false;
+  }
+  whole = {std::max(over.enter.lo, slab.enter.lo), std::min(over.leave.hi, slab.leave.hi),
+           over.enter.lo >= slab.enter.lo, over.leave.hi <= slab.leave.hi};
+  return !whole.is_empty() && std::isfinite(whole.begin) && std::isfinite(whole.end);
+}
+
+TwistedLine TwistedPrism::line_along(const LocalRay& ray) const {
+  const int on_edge = ray.on_face < static_cast<int>(walls) ? -1 : (ray.on_face - static_cast<int>(walls)) / 2;
+  return {{low(), 1 / h, twist / 90, scale_x - 1, scale_y - 1, clearance_, reach_}, ray, on_edge};
+}
+
+std::optional<Crossing> TwistedPrism::crossing_near(const LocalRay& ray, double t, double near, bool entering) const {
+  Chord slab;
+  SearchedPart whole;
+  // What lies beyond a tip is dropped by looking at all of it.
+  if (scale_x == 0 || scale_y == 0 || !find_part(ray, slab, whole)) return std::nullopt;
+  thread_local std::vector<EdgeCrossing> crossings;
+  line_along(ray).cross_edges(edges_, {whole.begin, whole.end}, {t - 2 * near, t + 2 * near}, crossings);
+  return crossing_between_caps(slab, crossings, t, near, entering, walls);
 }
 
 // Where the outline has shrunk to a line or a point, every point of the plane satisfies the equations of its edges. A
@@ -180,13 +196,24 @@ Region TwistedPrism::classify(const Box3& box) const {
   // What matters is what lies between the caps. Shares of the height, and where they take the box.
   const double from = std::clamp((box.lower.z - low()) / h, 0.0, 1.0);
   const double to = std::clamp((box.upper.z - low()) / h, 0.0, 1.0);
+  const Cover places = cover(box, from, to);
+  if (std::sqrt(x * x + y * y) > length(edges_.reach()) * places.most_scale * (1 + gamma(8))) return Region::outside;
+  if (!(places.least_scale > 0) || !std::isfinite(places.spread)) return Region::straddles;
+  if (!places.visit_edges(edges_, [](std::uint32_t) { return false; })) return Region::straddles;
+  if (!edges_.contains(places.place)) return Region::outside;
+  return between_caps ? Region::inside : Region::straddles;
+}
+
+// What of the outline's plane lies under the points of a box between two shares of the height.
+TwistedPrism::Cover TwistedPrism::cover(const Box3& box, double from, double to) const {
   const double share = 0.5 * (from + to), half = 0.5 * (to - from) + gamma(8);
   const double sx = 1 + (scale_x - 1) * share, sy = 1 + (scale_y - 1) * share;
   const double sx_least = sx - half * std::fabs(scale_x - 1) - gamma(8) * (1 + scale_x);
   const double sy_least = sy - half * std::fabs(scale_y - 1) - gamma(8) * (1 + scale_y);
-  const double size_most = std::max(2 * sx - sx_least, 2 * sy - sy_least);
-  if (std::sqrt(x * x + y * y) > length(edges_.reach()) * size_most * (1 + gamma(8))) return Region::outside;
-  if (!(sx_least > 0 && sy_least > 0)) return Region::straddles;
+  Cover result;
+  result.least_scale = std::min(sx_least, sy_least);
+  result.most_scale = std::max(2 * sx - sx_least, 2 * sy - sy_least);
+  if (!(result.least_scale > 0)) return result;
   const Vec3 middle = box.center(), size = 0.5 * box.size();
   const auto divide = [half](double value, double radius, double s, double s_least, double growth) {
     // |(value ± radius) / (s ± ds) - value / s|
@@ -195,14 +222,53 @@ Region TwistedPrism::classify(const Box3& box) const {
   const double a = middle.x / sx, b = middle.y / sy;
   const double a_radius = divide(middle.x, size.x, sx, sx_least, scale_x - 1);
   const double b_radius = divide(middle.y, size.y, sy, sy_least, scale_y - 1);
-  const double turn = half_pi * std::fabs(twist / 90) * half + sine_cosine_error + gamma(8) * std::fabs(twist);
-  const double far = length(Vec2{std::fabs(a) + a_radius, std::fabs(b) + b_radius});
-  const double radius = (std::sqrt(a_radius * a_radius + b_radius * b_radius) + far * turn) * (1 + gamma(16));
   const auto [sine, cosine] = quarter_turn_sine_cosine(twist / 90 * share);
-  const Vec2 place{cosine * a - sine * b, sine * a + cosine * b};
-  if (!std::isfinite(radius) || edges_.is_near_edge(place, radius)) return Region::straddles;
-  if (!edges_.contains(place)) return Region::outside;
-  return between_caps ? Region::inside : Region::straddles;
+  result.place = {cosine * a - sine * b, sine * a + cosine * b};
+  result.far = length(Vec2{std::fabs(a) + a_radius, std::fabs(b) + b_radius});
+  // A disc of places turns around the axis: its middle along a straight way, but for the arc's height, or anywhere.
+  const double turn = half_pi * std::fabs(twist / 90) * half, from_axis = length(result.place);
+  const bool is_short = turn <= 1;
+  if (is_short) result.way = turn * Vec2{-result.place.y, result.place.x};
+  const double beside = (is_short ? 0.5 * turn * turn : 2) * from_axis;
+  const double slack = (sine_cosine_error + gamma(8) * (1 + std::fabs(twist))) * result.far;
+  result.spread = (std::hypot(a_radius, b_radius) + beside + slack) * (1 + gamma(16));
+  return result;
+}
+
+bool TwistedPrism::walls_within(const LocalBox& box, std::size_t most, TwistedPart& part) const {
+  part.walls.clear();
+  part.low = low();
+  part.high = high();
+  part.middle = box.center.z;
+  part.turn = half_pi * (twist / 90) / h;
+  const Box3& bounds = box.bounds;
+  if (!(std::fabs(part.turn) * 0.5 * bounds.size().z <= TwistedPart::most_turn)) return false;
+  const Cover places = cover(bounds, (bounds.lower.z - low()) / h, (bounds.upper.z - low()) / h);
+  // Towards a tip everything is small against its errors.
+  if (!(places.least_scale > 0x1p-6 * largest_scale()) || !std::isfinite(places.spread)) return false;
+  const double share = (part.middle - low()) / h, slope_x = (scale_x - 1) / h, slope_y = (scale_y - 1) / h;
+  part.scale = {1 + (scale_x - 1) * share, 1 + (scale_y - 1) * share};
+  part.scale_slope = {slope_x, slope_y};
+  part.least_scale = places.least_scale;
+  part.turn_to_here = half_pi * std::fabs(twist / 90 * share);
+  part.reach = places.far;
+  const bool are_few = places.visit_edges(edges_, [&](std::uint32_t i) {
+    if (part.walls.size() == most) return false;
+    part.walls.push_back({edges_.edges()[i], i});
+    return true;
+  });
+  if (!are_few) return false;
+  part.choose_place(box, edges_, [&](const Vec3& p) {
+    Vec2 place;
+    find_place(p, place);
+    return place;
+  });
+  // All of it as it stands over the middle.
+  const auto [sine, cosine] = quarter_turn_sine_cosine(-twist / 90 * share);
+  const auto turned = [s = sine, c = cosine](const Vec2& p) { return Vec2{c * p.x - s * p.y, s * p.x + c * p.y}; };
+  part.place = turned(part.place);
+  for (OutlineEdge& wall : part.walls) wall = OutlineEdge::between(turned(wall.from), turned(wall.to), wall.bulge);
+  return true;
 }
 
 // The gradient of q (outline_edges.h) at R(turn) (x / sx, y / sy).

@@ -1,14 +1,21 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
 
+#include "primitive/capsule.h"
 #include "primitive/concept.h"
+#include "primitive/edge_crossings.h"
 #include "primitive/outline_edges.h"
+#include "primitive/wall_part.h"
 
 namespace tenon {
+
+class TwistedLine;
 
 /// An outline swept along z that turns and is scaled evenly on the way: at the share s of its height a point is
 /// S(s) R(-twist s) (u, v), with (u, v) in the outline, R a turn counterclockwise, and S scaling by 1 + (scale_x - 1) s
@@ -49,20 +56,31 @@ class TwistedPrism {
   void spans(const LocalRay& ray, Spans& out) const { spans_within(ray, {}, out); }
   void spans_within(const LocalRay& ray, const LineWindow& window, Spans& out) const;
   static double window_share() { return 0.1; }
+  std::optional<Crossing> crossing_near(const LocalRay& ray, double t, double near, bool entering) const;
   Region classify(const LocalBox& box) const;
   std::uint32_t face_count() const { return walls + 2 * static_cast<std::uint32_t>(edges_.edges().size()); }
   Vec3 normal(const Vec3& point, std::uint32_t face) const;
+  bool walls_within(const LocalBox& box, std::size_t most, TwistedPart& part) const;
 
  private:
   /// What is known of the parts of a box looked at so far.
   struct BoxSearch {
-    int parts_left = 320;
+    int parts_left = 32;
     bool is_inside_somewhere = false, is_outside_somewhere = false;
 
     void look(bool is_inside) { (is_inside ? is_inside_somewhere : is_outside_somewhere) = true; }
     bool is_decided() const { return is_inside_somewhere && is_outside_somewhere; }
   };
 
+  /// A part of the outline's plane. Where a scale may be zero, nothing is known but the scales.
+  struct Cover : Capsule {
+    double far = HUGE_VAL;  ///< no place of it is farther from the axis
+    double least_scale = 0, most_scale = 0;
+  };
+
+  bool find_part(const LocalRay& ray, Chord& slab, SearchedPart& whole) const;
+  TwistedLine line_along(const LocalRay& ray) const;
+  Cover cover(const Box3& box, double from, double to) const;
   Region classify(const Box3& bounds) const;
   Region classify_parts(const Vec3& middle, const std::array<Vec3, 3>& half_edges, const Vec3& error, int halvings,
                         BoxSearch& search) const;

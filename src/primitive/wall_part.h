@@ -46,6 +46,22 @@ struct SweptPart : WallPart {
   double least_scale = 1, most_scale = 1;  ///< over the box; positive
 };
 
+/// Of an outline that turns and is scaled on its way along z. With z counted from `middle`, a point lies over the place
+/// that (x / (scale.x + scale_slope.x z), y / (scale.y + scale_slope.y z)) comes to when it is turned by `turn` z. The
+/// plane is turned so that this is no turn at `middle`.
+struct TwistedPart : WallPart {
+  /// How far the plane turns from `middle` to an end of the box, at most, in radians.
+  static constexpr double most_turn = 0.5;
+
+  double low = 0, high = 0;  ///< z of the caps
+  double middle = 0;         ///< z of the box's middle
+  double turn = 0;           ///< radians per length, counterclockwise
+  Vec2 scale{1, 1}, scale_slope;
+  double least_scale = 1;   ///< over the box; positive
+  double reach = 0;         ///< how far from the axis the places of the box are, at most
+  double turn_to_here = 0;  ///< in radians, from the bottom: what the turn rounds by goes by that
+};
+
 /// Of an outline that is turned around z: a point lies over (its distance from z, z).
 struct RevolvedPart : WallPart {};
 

@@ -48,6 +48,41 @@ TEST(Cells, FollowPrismsByWhatTheyComeTo) {
   }
 }
 
+// Twisted prisms come to a few walls in small cells, which turn past the ray: segments and arcs, scaled on the way or
+// not, with holes, and through one another.
+TEST(Cells, FollowTwistedPrismsByTheirWalls) {
+  Draw draw(47);
+  for (int round = 0; round < 8; ++round) {
+    SCOPED_TRACE(round);
+    const bool has_arcs = round % 4 >= 2;
+    SceneBuilder b;
+    const auto twisted = [&](double size, double turn) {
+      Outline outline{{{}, {}}};
+      const int corners = 3 + round;
+      for (int i = 0; i < corners; ++i) {
+        const double r = size * draw.real(0.5, 1), angle = 360.0 * i / corners;
+        const double bulge = has_arcs && i % 2 == 0 ? draw.real(-0.4, 1) : 0;
+        outline.loops[0].push_back({r * cos_degrees(angle), r * sin_degrees(angle), bulge});
+      }
+      for (int i = 0; i < 4; ++i) outline.loops[1].push_back({0.2 * (i == 1 || i == 2), 0.15 * (i > 1), 0});
+      const double scale_x = round % 2 == 0 ? 1 : draw.real(0.3, 1.6), scale_y = round == 3 ? 0.8 : scale_x;
+      return b.primitive("twisted_prism", {outline, 1.0, round % 2 == 0, turn, scale_x, scale_y});
+    };
+    const SceneNodeId block = b.translate({0.6, 0, 0.5}, b.cube({1.2, 1.2, 1.2}));
+    const SceneNodeId bodies =
+        b.unite({twisted(1, 90), b.translate({0.3, 0, 0.4}, b.rotate({0, 0, 20}, twisted(0.8, -60))), block,
+                 b.rotate({70, 30, 0}, twisted(0.7, 200))});
+    const SceneNodeId tools =
+        b.unite({b.translate({0.2, 0.1, -1}, b.cylinder(4, 0.2)), b.translate({1, 0.5, 0.7}, b.sphere(0.4)),
+                 b.translate({0.7, 0, -0.5}, b.scale(0.4, b.transform(Affine3::scale({1, 1, 6}), twisted(1, 720))))});
+    const CsgTree tree = b.tree(b.subtract({bodies, tools}));
+    for (const char* spec : {"cells", "cells:quality=fast"}) expect_same_answers(tree, spec, 300);
+    expect_streams_say_what_single_rays_say(tree, 4000);
+    const auto cells = build_accelerator("cells", tree);
+    EXPECT_LT(detail(**cells, "cells with leaves of no special kind"), 0.5 * detail(**cells, "boundary cells"));
+  }
+}
+
 // Revolutions come to a few walls in most cells: cones, cylinders, planes across the axis, parts of balls and rings,
 // from within and outside, and faces that lie in one another's.
 TEST(Cells, FollowRevolutionsByTheirWalls) {

@@ -191,6 +191,20 @@ TEST(SpecialRays, InAWallOfAPrismAreInside) {
   expect_chord(cross("prism", square, {0.5, 0, 0.5}, {1, 0, 0}, 2), -0.5, 0.5);
 }
 
+// The line runs along a short wall of a hole, whose plane goes on through all of the solid.
+TEST(SpecialRays, InAWallOfATwistedPrismAreInDoubtThereAlone) {
+  const Outline outline{{{{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, {{0.5, 0, 0}, {1, 0, 0}, {1, 0.25, 0}}}};
+  const std::vector<FieldValue> prism{outline, 1.0, false, 90.0, 1.0, 1.0};
+  for (const double z : {0.0, 0.25, 0.5, 1.0}) {
+    const Vec3 along{cos_degrees(-90 * z), sin_degrees(-90 * z), 0};
+    const Spans found = cross("twisted_prism", prism, Vec3{0, 0, z} - 4 * along, along);
+    ASSERT_GE(found.size(), 2u);
+    EXPECT_NEAR(found.front().t, 2, 1e-12);
+    EXPECT_NEAR(found.back().t, 6, 1e-12);
+    for (const Crossing& c : found) EXPECT_LT(c.bound, 0.6) << describe(found);
+  }
+}
+
 TEST(SpecialRays, ThroughHolesTipsAndLoopsThatCross) {
   const Outline ring{{{{2, 0, 1}, {-2, 0, 1}}, {{1, 0, 1}, {-1, 0, 1}}}};
   Spans four = cross("prism", {ring, 1.0, false, 1.0}, {-3, 0, 0.5}, {1, 0, 0});

@@ -26,6 +26,9 @@ struct CellCost {
   /// Of a swept outline in a cell: the caps and the way to the place that is known, and each wall.
   static double of_outline(std::size_t walls) { return 3 + 1.2 * static_cast<double>(walls); }
 
+  /// Of a twisted outline: the turns at both ends of the ray, those on the way to a crossing, and each wall.
+  static double of_twisted(std::size_t walls) { return 6 + 1.2 * static_cast<double>(walls); }
+
   /// Of a turned outline: places on the ray, each wall, and that rays are left to the classifier which cross three.
   static double of_revolved(std::size_t walls) {
     const auto k = static_cast<double>(walls);
@@ -52,6 +55,9 @@ struct CellCost {
       case RecordKind::outline:
       case RecordKind::outline_piece:
         return of_outline(1);
+      case RecordKind::twisted:
+      case RecordKind::twisted_piece:
+        return of_twisted(1);
       case RecordKind::revolved:
       case RecordKind::revolved_piece:
         return of_revolved(1);

@@ -19,6 +19,9 @@ bool LeafPieces::may_have(const CsgTree& tree, const Leaf& leaf) {
     || requires(SweptPart & part) {
       primitive.walls_within(box, most_walls, part);
     }
+    || requires(TwistedPart & part) {
+      primitive.walls_within(box, most_walls, part);
+    }
     || requires(RevolvedPart & part) {
       primitive.walls_within(box, most_walls, part);
     };
@@ -38,6 +41,10 @@ bool LeafPieces::find_walls(const Leaf& leaf, const LocalBox& local) {
     if constexpr (requires { primitive.walls_within(local, most_walls, swept_); }) {
       kind_ = RecordKind::outline_piece;
       return primitive.walls_within(local, most_walls, swept_) && outline_.record(leaf, scale_, center_, swept_, box_);
+    } else if constexpr (requires { primitive.walls_within(local, most_walls, twisted_); }) {
+      kind_ = RecordKind::twisted_piece;
+      return primitive.walls_within(local, most_twisted_walls, twisted_) &&
+             twisted_record_.record(leaf, scale_, center_, twisted_, box_);
     } else if constexpr (requires { primitive.walls_within(local, most_walls, turned_); }) {
       kind_ = RecordKind::revolved_piece;
       return primitive.walls_within(local, most_turned_walls, turned_) &&
@@ -50,12 +57,14 @@ bool LeafPieces::find_walls(const Leaf& leaf, const LocalBox& local) {
 
 double LeafPieces::price() const {
   if (kind_ == RecordKind::outline_piece) return CellCost::of_outline(swept_.walls.size());
+  if (kind_ == RecordKind::twisted_piece) return CellCost::of_twisted(twisted_.walls.size());
   if (kind_ == RecordKind::revolved_piece) return CellCost::of_revolved(turned_.walls.size());
   return CellCost::of_leaf(kind_, 0);
 }
 
 const std::vector<double>& LeafPieces::values() {
   if (kind_ == RecordKind::outline_piece) return outline_.values();
+  if (kind_ == RecordKind::twisted_piece) return twisted_record_.values();
   return kind_ == RecordKind::revolved_piece ? revolved_.values() : values_;
 }
 
@@ -83,6 +92,8 @@ bool LeafPieces::find_planes(const Leaf& leaf, const LocalBox& local) {
 
 Box3 LeafPieces::surface() const {
   if (kind_ == RecordKind::outline_piece) return surface_of_outline();
+  // Its walls go through all of the box, more or less.
+  if (kind_ == RecordKind::twisted_piece) return box_;
   return kind_ == RecordKind::revolved_piece ? surface_of_revolved() : surface_of_planes();
 }
 

@@ -6,13 +6,14 @@
 #include "accel/cells/cell_scale.h"
 #include "accel/cells/outline_recorder.h"
 #include "accel/cells/revolved_recorder.h"
+#include "accel/cells/twisted_recorder.h"
 #include "csg/csg_tree.h"
 
 namespace tenon::cells {
 
 /// What leaves of costly kinds come to within small boxes: where few faces of one go through, it is what lies below a
 /// few planes, as a convex solid does, or all but that (planes_within() of the primitive), or what few walls of an
-/// outline bound that is swept or turned (walls_within()).
+/// outline bound that is swept, twisted or turned (walls_within()).
 class LeafPieces {
  public:
   /// @param center  what the records' places are relative to
@@ -29,6 +30,9 @@ class LeafPieces {
   RecordKind kind() const { return kind_; }
   /// A box around its surface, within the box.
   Box3 surface() const;
+  /// Whether a smaller one, of a twisted outline, may cost much less: below four walls rays' turns cost more (by trial
+  /// on OpenSCAD's screw and spring).
+  bool has_many_walls() const { return twisted_.walls.size() > 4; }
   /// What following it costs (CellCost).
   double price() const;
   /// The numbers of its record.
@@ -36,7 +40,7 @@ class LeafPieces {
 
  private:
   // By trial on OpenSCAD's examples: half as many made text slower.
-  static constexpr std::size_t most_walls = 16, most_turned_walls = 16;
+  static constexpr std::size_t most_walls = 16, most_turned_walls = 16, most_twisted_walls = 16;
 
   bool find_planes(const Leaf& leaf, const LocalBox& local);
   bool find_walls(const Leaf& leaf, const LocalBox& local);
@@ -54,8 +58,10 @@ class LeafPieces {
   std::vector<double> values_;
   const Leaf* leaf_ = nullptr;  // of walls
   SweptPart swept_;
+  TwistedPart twisted_;
   RevolvedPart turned_;
   OutlineRecorder outline_;
+  TwistedRecorder twisted_record_;
   RevolvedRecorder revolved_;
 };
 

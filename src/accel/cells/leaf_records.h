@@ -14,7 +14,8 @@ namespace tenon::cells {
 /// is resolved by the classifier there; in one with an `instance` it is followed through the cells of that.
 ///
 /// A piece is what a leaf comes to in one cell (LeafPieces): a convex solid, all but one, a `notch`, or an outline of
-/// few walls that is swept, or turned, `revolved`. Until all cells are built, its record stands in their store.
+/// few walls that is swept, `twisted` on the way, or turned, `revolved`. Until all cells are built, its record stands
+/// in their store.
 enum class RecordKind : std::uint8_t {
   general,
   ball,
@@ -26,11 +27,13 @@ enum class RecordKind : std::uint8_t {
   torus,
   notch,
   outline,
+  twisted,
   revolved,
   instance,
   convex_piece,
   notch_piece,
   outline_piece,
+  twisted_piece,
   revolved_piece
 };
 
@@ -43,6 +46,8 @@ inline RecordKind settled(RecordKind kind) {
       return RecordKind::notch;
     case RecordKind::outline_piece:
       return RecordKind::outline;
+    case RecordKind::twisted_piece:
+      return RecordKind::twisted;
     case RecordKind::revolved_piece:
       return RecordKind::revolved;
     default:
@@ -57,15 +62,15 @@ inline bool is_followed(RecordKind kind) {
 
 /// Where a leaf's record stands, and of what kind it is.
 struct RecordRef {
+  static constexpr int index_bits = 27;
   std::uint32_t bits = 0;
 
   RecordRef() = default;
   RecordRef(RecordKind kind, std::size_t index)
-      : bits(static_cast<std::uint32_t>(kind) << 28 | static_cast<std::uint32_t>(index)) {}
-  RecordKind kind() const { return static_cast<RecordKind>(bits >> 28); }
-  std::uint32_t index() const {
-    return bits & 0xfffffff;
-  }  ///< into LeafRecords::lines; of an instance: its PrototypeId
+      : bits(static_cast<std::uint32_t>(kind) << index_bits | static_cast<std::uint32_t>(index)) {}
+  RecordKind kind() const { return static_cast<RecordKind>(bits >> index_bits); }
+  /// Into LeafRecords::lines; of an instance: its PrototypeId.
+  std::uint32_t index() const { return bits & ((1U << index_bits) - 1); }
 };
 
 /// A ball: the centre, the square of its radius, and the square of half a chord below which a ray grazes it.
@@ -134,6 +139,16 @@ struct OutlineRecord : WallsRecord {
   // Of each wall.
   static constexpr std::size_t offset = Wall::size, from = Wall::size + 2, graze = Wall::size + 4,
                                start = Wall::size + 5, index = Wall::size + 6, wall_size = Wall::size + 7;
+};
+
+/// A twisted outline (TwistedPart), by z from its `middle`, which is `middle[2]` above the part's. `growth` is the
+/// faster of the changes of scale, `reach` as in the part. Values within `doubt` may be zero.
+struct TwistedRecord : WallsRecord {
+  static constexpr std::size_t middle = size, low = size + 3, high = size + 4, least_to_caps = size + 5,
+                               turn = size + 6, scale = size + 7, scale_slope = size + 9, growth = size + 11,
+                               least_scale = size + 12, reach = size + 13, doubt = size + 14, walls = size + 15;
+  // Of each wall: how steep its value may be, at most.
+  static constexpr std::size_t steepness = Wall::size, wall_size = Wall::size + 1;
 };
 
 /// A turned outline (RevolvedPart), by the distance from the axis and relative to the box's middle along it. The middle

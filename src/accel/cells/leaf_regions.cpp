@@ -5,6 +5,7 @@
 #include "accel/cells/cell_cost.h"
 #include "accel/cells/leaf_pieces.h"
 #include "csg/enclosures.h"
+#include "math/quarter_turns.h"
 #include "primitive/dispatch.h"
 #include "primitive/lists.h"
 
@@ -124,6 +125,11 @@ void LeafRegions::add_shape(const Leaf& leaf, RegionLeaf& region) {
       set_radius(scale * primitive.r);
       region.shape = static_cast<std::uint32_t>(rings_.size());
       rings_.push_back({normalize(map.column(2)), scale * primitive.R, scale * primitive.r});
+    } else if constexpr (std::is_same_v<P, TwistedPrism>) {
+      // The finest parts are an eighth of this: the plane of the outline turns by half a radian in one (TwistedPart).
+      const double turn = half_pi * std::fabs(primitive.twist / 90), height = length(map.column(2)) * primitive.h;
+      region.extent = std::min(region.extent, 8 * TwistedPart::most_turn * height / turn);
+      region.has_small_pieces = records_ != nullptr;
     } else if constexpr (std::is_same_v<P, Box>) {
       if (maps_axes_to_axes(map)) {
         region.kind = RegionLeaf::Kind::plain;

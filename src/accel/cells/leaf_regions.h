@@ -28,8 +28,9 @@ struct RegionLeaf {
   float exact_price = 1;    ///< CellCost::of_spans
   float price_of_length = 0;  ///< the part of that which falls with the length of the ray's way through a cell
   Kind kind = Kind::general;
-  bool has_pieces = false;      ///< see LeafPieces
-  std::uint8_t round_axes = 0;  ///< bit a: distances along axis a count. Along the others a plain leaf is its bounds
+  bool has_pieces = false;        ///< see LeafPieces
+  bool has_small_pieces = false;  ///< only in parts that are small against the leaf
+  std::uint8_t round_axes = 0;    ///< bit a: distances along axis a count. Along the others a plain leaf is its bounds
   LeafId leaf;
   std::uint32_t shape = 0;  ///< of rings and turned boxes: which; of an instance: its PrototypeId
 

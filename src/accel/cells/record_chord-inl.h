@@ -16,6 +16,7 @@
 #include "accel/cells/revolved_stretch-inl.h"
 #include "accel/cells/scene_rays-inl.h"
 #include "accel/cells/torus_stretch-inl.h"
+#include "accel/cells/twisted_stretch-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
@@ -247,6 +248,10 @@ HWY_INLINE Stretch<D> FindStretch(D d, const SceneRays<D>& ray, RecordKind kind,
     case RecordKind::outline:
       if constexpr (std::is_same_v<Record, SharedRecord<D>>) return OutlineStretch(d, ray, r, reach, t_in, t_out);
       break;
+    case RecordKind::twisted:
+      if constexpr (std::is_same_v<Record, SharedRecord<D>>)
+        return TwistedStretch(d, ray, r, reach, t_in, t_out, lanes);
+      break;
     case RecordKind::revolved:
       if constexpr (std::is_same_v<Record, SharedRecord<D>>) return RevolvedStretch(d, ray, r, t_in, t_out, lanes);
       break;
@@ -257,6 +262,7 @@ HWY_INLINE Stretch<D> FindStretch(D d, const SceneRays<D>& ray, RecordKind kind,
     case RecordKind::convex_piece:
     case RecordKind::notch_piece:
     case RecordKind::outline_piece:
+    case RecordKind::twisted_piece:
     case RecordKind::revolved_piece:
       break;
   }

@@ -209,6 +209,7 @@ class StreamTracer {
       case RecordKind::convex:
       case RecordKind::notch:
       case RecordKind::outline:
+      case RecordKind::twisted:
       case RecordKind::revolved:
         return MeetOneByOne(kind);
       case RecordKind::general:
@@ -216,6 +217,7 @@ class StreamTracer {
       case RecordKind::convex_piece:
       case RecordKind::notch_piece:
       case RecordKind::outline_piece:
+      case RecordKind::twisted_piece:
       case RecordKind::revolved_piece:
         break;
     }

@@ -56,7 +56,7 @@ Subdivision::Built TabledSubdivider::build(const Part& part) {
   std::array<Subdivision::Built, 2> built;
   for (std::size_t side = 0; side < 2; ++side) {
     if (parts[side].rest.leaves == 0) continue;
-    parts[side].unpaid = pays ? 0 : part.unpaid + 1;
+    parts[side].unpaid = pays || part.is_too_large ? 0 : part.unpaid + 1;
     built[side] = build(parts[side]);
   }
   const Subdivision::Built joined = result_->join(built[0], built[1]);
@@ -86,20 +86,21 @@ TabledSubdivider::Part TabledSubdivider::make_part(const Box3& box, const Folded
   Box3 around;
   // As they are followed, and as the classifier does, which has to follow all of them where one has no record.
   double followed = CellCost::visit, exact = CellCost::visit, hoped = CellCost::visit;
-  bool has_unknown = false, may_cost_less = false;
+  bool has_unknown = false, may_cost_less = false, is_too_large = false;
   for_each_bit(rest.leaves, [&](std::size_t i) {
     const RegionLeaf& leaf = search_.leaf(i);
     const Box3 surface = input_.regions.surface_within(leaf, within);
     const double exact_price = this->exact_price(leaf, surface);
     exact += exact_price;
-    may_cost_less |= leaf.has_windows();
     if (leaf.has_pieces && pieces_.find(leaf.leaf, within)) {
+      may_cost_less |= leaf.has_small_pieces ? pieces_.has_many_walls() : leaf.has_windows();
       around = hull(around, pieces_.surface());
       followed += pieces_.price();
       hoped += pieces_.price();
       return;
     }
-    may_cost_less |= leaf.has_pieces;
+    may_cost_less |= leaf.has_windows() || leaf.has_pieces;
+    is_too_large |= leaf.has_small_pieces;
     around = hull(around, surface);
     const bool is_unknown = input_.records.of_leaf[leaf.leaf.get()].kind() == RecordKind::general;
     followed += static_cast<double>(leaf.price);
@@ -115,6 +116,7 @@ TabledSubdivider::Part TabledSubdivider::make_part(const Box3& box, const Folded
   part.cost = part.tight.surface_area() * (has_unknown ? exact : followed);
   part.hope = part.tight.surface_area() * (has_unknown ? hoped : followed);
   part.may_cost_less = may_cost_less;
+  part.is_too_large = is_too_large;
   return part;
 }
 

@@ -34,6 +34,7 @@ class TabledSubdivider {
     double cost = 0;             // as one cell, times the area of `tight`
     double hope = 0;             // the same if no leaf were in the way of others that have records there
     bool may_cost_less = false;  // some leaf does in smaller parts
+    bool is_too_large = false;   // some leaf has pieces in smaller parts alone
     int depth = 0;
     int unpaid = 0;  // splits in a row, on the way here, that pay only if others do that follow
   };
