@@ -13,7 +13,8 @@ CellTree CellTree::build(const CsgTree& tree, const Box3& box, const CellScale& 
   result.scale = scale;
   result.margin = enclosure_margin(tree);
   result.ranks = OwnerRanks(tree);
-  result.box = grown(box, 4 * result.scale.growth);
+  // Rays are met by what lies around crossings alone, cells a good deal farther out.
+  result.box = grown(box, 32 * result.scale.resolution);
   result.center = result.box.center();
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
@@ -26,7 +27,7 @@ CellTree CellTree::build(const CsgTree& tree, const Box3& box, const CellScale& 
   const LeafRegions regions(tree, &result.records);
   BuiltCells built = build_cells(
       {tree, result.scale, result.records, regions, result.ranks, result.center, settings.quality, settings.limits},
-      result.box, result.center, settings.threads);
+      grown(box, 4 * result.scale.growth), result.center, settings.threads);
   static_cast<CellStore&>(result) = std::move(built.store);
   result.nodes = std::move(built.nodes);
   if (!result.pieces.empty()) {
