@@ -25,12 +25,14 @@ struct EdgeCrossing : BoundedRoot {
   }
 };
 
-/// How far from t = 0 a function that is zero there, slope t ± half_curvature t², may be within an error of zero.
+/// How far from t = 0 a function that is zero there, slope t ± half_curvature t², may be within an error of zero; in
+/// the middle of what is left up to its other root it is not.
 inline double doubt_around_zero(double slope, double half_curvature, double error) {
   if (!(error > 0)) return 0;
   const double b = std::fabs(slope), a = std::fabs(half_curvature);
-  // At 2 E / b it is at least 2 E - 4 a E² / b², and where that is less than E, at 3 √(E / a) at least 9 E - 6 E.
-  return 4 * a * error <= b * b ? 2 * error / b : 3 * std::sqrt(error / a);
+  // At 2 E / b it is at least 2 E - 4 a E² / b², and in the middle between there and b / a as much, which is more than
+  // E; and where that is not said, at 3 √(E / a) it is at least 9 E - 3 √5 E.
+  return 5 * a * error <= b * b ? 2 * error / b : 3 * std::sqrt(error / a);
 }
 
 /// The part of a line that was searched for crossings.
@@ -76,7 +78,8 @@ bool find_boundary_crossings(std::vector<EdgeCrossing>& crossings, const Searche
 void emit_between_caps(const Chord& slab, const std::vector<BoundaryCrossing>& boundary, bool inside,
                        std::uint32_t first_wall, Spans& out);
 
-/// The crossing of a swept outline that is within `near` of t, if it is certainly the only one within twice that.
+/// The crossing of a swept outline that is within `near` of t, if it is certainly the only one within twice that; of a
+/// line whose part within the solid is longer than that.
 ///
 /// @param slab        the part of the line between the caps
 /// @param crossings   with edges, all of those that may be one with it

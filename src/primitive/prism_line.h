@@ -172,7 +172,11 @@ class Prism::Line {
     if (std::fabs(f.slope) > f.slope_error) {
       const End at = plane_end(f, 0, false);
       if (on_edge_ == static_cast<int>(index)) {
-        out.push_back(EdgeCrossing::at_start(index, f.slope > 0, std::max({0.0, -at.lo, at.hi})));
+        EdgeCrossing start = EdgeCrossing::at_start(index, f.slope > 0, std::max({0.0, -at.lo, at.hi}));
+        // Beyond the edge's box no lookup errs.
+        start.lo = std::max(start.lo, std::min(begin, 0.0));
+        start.hi = std::min(start.hi, std::max(end, 0.0));
+        out.push_back(start);
         return;
       }
       crossing.t = at.t;

@@ -113,11 +113,12 @@ void TwistedLine::cross_edges(const OutlineEdges& edges, const Interval& whole, 
   }
   std::erase_if(out, [&](const EdgeCrossing& c) { return !window.meets(c.lo, c.hi); });
   // The face the ray starts on is crossed there even where rounding has put the edge aside.
-  if (on_edge_ < 0 || !whole.contains(0) || !window.meets(0, 0)) return;
+  if (on_edge_ < 0 || !whole.contains(0)) return;
   const auto index = static_cast<std::uint32_t>(on_edge_);
   const auto is_start = [index](const EdgeCrossing& c) { return c.given && c.edge == index; };
   if (std::any_of(out.begin(), out.end(), is_start)) return;
-  out.push_back(start_on(index, edges.edges()[index]));
+  const EdgeCrossing start = start_on(index, edges.edges()[index]);
+  if (window.meets(start.lo, start.hi)) out.push_back(start);
 }
 
 EdgeCrossing TwistedLine::start_on(std::uint32_t index, const OutlineEdge& edge) const {

@@ -211,6 +211,7 @@ TwistedPrism::Cover TwistedPrism::cover(const Box3& box, double from, double to)
   const double sx_least = sx - half * std::fabs(scale_x - 1) - gamma(8) * (1 + scale_x);
   const double sy_least = sy - half * std::fabs(scale_y - 1) - gamma(8) * (1 + scale_y);
   Cover result;
+  result.spread = HUGE_VAL;
   result.least_scale = std::min(sx_least, sy_least);
   result.most_scale = std::max(2 * sx - sx_least, 2 * sy - sy_least);
   if (!(result.least_scale > 0)) return result;
@@ -242,7 +243,8 @@ bool TwistedPrism::walls_within(const LocalBox& box, std::size_t most, TwistedPa
   part.middle = box.center.z;
   part.turn = half_pi * (twist / 90) / h;
   const Box3& bounds = box.bounds;
-  if (!(std::fabs(part.turn) * 0.5 * bounds.size().z <= TwistedPart::most_turn)) return false;
+  part.is_too_large = !(std::fabs(part.turn) * 0.5 * bounds.size().z <= TwistedPart::most_turn);
+  if (part.is_too_large) return false;
   const Cover places = cover(bounds, (bounds.lower.z - low()) / h, (bounds.upper.z - low()) / h);
   // Towards a tip everything is small against its errors.
   if (!(places.least_scale > 0x1p-6 * largest_scale()) || !std::isfinite(places.spread)) return false;
@@ -257,6 +259,7 @@ bool TwistedPrism::walls_within(const LocalBox& box, std::size_t most, TwistedPa
     part.walls.push_back({edges_.edges()[i], i});
     return true;
   });
+  part.is_too_large = !are_few;
   if (!are_few) return false;
   part.choose_place(box, edges_, [&](const Vec3& p) {
     Vec2 place;

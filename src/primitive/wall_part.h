@@ -57,9 +57,10 @@ struct TwistedPart : WallPart {
   double middle = 0;         ///< z of the box's middle
   double turn = 0;           ///< radians per length, counterclockwise
   Vec2 scale{1, 1}, scale_slope;
-  double least_scale = 1;   ///< over the box; positive
-  double reach = 0;         ///< how far from the axis the places of the box are, at most
-  double turn_to_here = 0;  ///< in radians, from the bottom: what the turn rounds by goes by that
+  double least_scale = 1;     ///< over the box; positive
+  double reach = 0;           ///< how far from the axis the places of the box are, at most
+  bool is_too_large = false;  ///< where there is none: the box is, whose parts may have one
+  double turn_to_here = 0;    ///< in radians, from the bottom: what the turn rounds by goes by that
 };
 
 /// Of an outline that is turned around z: a point lies over (its distance from z, z).

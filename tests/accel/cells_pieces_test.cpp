@@ -83,6 +83,40 @@ TEST(Cells, FollowTwistedPrismsByTheirWalls) {
   }
 }
 
+// What a scale is wrong by counts by how far away the ends of a wall are.
+TEST(Cells, FollowTwistedPrismsWhoseWallsReachFar) {
+  Draw draw(53);
+  for (int round = 0; round < 4; ++round) {
+    SCOPED_TRACE(round);
+    SceneBuilder b;
+    const double far = round < 2 ? 70 : 4, height = round % 2 == 0 ? 1 : 0.1;
+    const auto wedge = [&](double turn) {
+      const double x = draw.real(0.8, 1.2) * far, y = draw.real(0.8, 1.2) * far;
+      const Outline outline{{{{-x, -y, 0}, {x, y - draw.real(0, 0.1), 0}, {draw.real(-0.2, 0), 0.3 * far, 0}}}};
+      return b.primitive("twisted_prism", {outline, height, true, turn, draw.real(0.2, 2), draw.real(0.2, 2)});
+    };
+    const SceneNodeId room = b.cube({1, 1, 2 * height}, true);
+    const SceneNodeId both = b.unite({wedge(draw.real(-60, 60)), b.rotate({0, 0, 140}, wedge(draw.real(-60, 60)))});
+    const CsgTree tree = b.tree(b.intersect({room, both}));
+    expect_same_answers(tree, "cells", 300, 0.01);
+    expect_streams_say_what_single_rays_say(tree, 4000);
+  }
+}
+
+// A twisted prism is cut into small parts, but not into any number of them: not where it turns a hundred times, nor
+// where no part of it comes to walls that can be followed.
+TEST(Cells, AreNotWithoutEndOfTwistedPrisms) {
+  const Outline round{{{{0.3, 0, 1}, {0.9, 0, 1}}}}, bellied{{{{1, 0, 1.5}, {1, 0.5, 0}, {0.5, 0.5, 0}, {0.5, 0, 0}}}};
+  for (const Outline& outline : {round, bellied}) {
+    for (const double twist : {90.0, 1800.0, 36000.0}) {
+      SceneBuilder b;
+      const CsgTree tree = b.tree(b.primitive("twisted_prism", {outline, 2.0, false, twist, 1.0, 1.0}));
+      const auto cells = build_accelerator("cells", tree);
+      EXPECT_LT(detail(**cells, "boundary cells"), 60000) << twist;
+    }
+  }
+}
+
 // Revolutions come to a few walls in most cells: cones, cylinders, planes across the axis, parts of balls and rings,
 // from within and outside, and faces that lie in one another's.
 TEST(Cells, FollowRevolutionsByTheirWalls) {

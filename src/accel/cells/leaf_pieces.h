@@ -30,8 +30,10 @@ class LeafPieces {
   RecordKind kind() const { return kind_; }
   /// A box around its surface, within the box.
   Box3 surface() const;
-  /// Whether a smaller one, of a twisted outline, may cost much less: below four walls rays' turns cost more (by trial
-  /// on OpenSCAD's screw and spring).
+  /// Whether there was none for the box being too large. Of twisted outlines.
+  bool was_too_large() const { return twisted_.is_too_large; }
+  /// Whether a smaller one may cost much less: with up to four walls the turns of rays cost more (by trial on
+  /// OpenSCAD's screw and spring). Of twisted outlines.
   bool has_many_walls() const { return twisted_.walls.size() > 4; }
   /// What following it costs (CellCost).
   double price() const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -67,7 +68,9 @@ struct RecordRef {
 
   RecordRef() = default;
   RecordRef(RecordKind kind, std::size_t index)
-      : bits(static_cast<std::uint32_t>(kind) << index_bits | static_cast<std::uint32_t>(index)) {}
+      : bits(static_cast<std::uint32_t>(kind) << index_bits | static_cast<std::uint32_t>(index)) {
+    assert(index >> index_bits == 0);
+  }
   RecordKind kind() const { return static_cast<RecordKind>(bits >> index_bits); }
   /// Into LeafRecords::lines; of an instance: its PrototypeId.
   std::uint32_t index() const { return bits & ((1U << index_bits) - 1); }
@@ -141,8 +144,8 @@ struct OutlineRecord : WallsRecord {
                                start = Wall::size + 5, index = Wall::size + 6, wall_size = Wall::size + 7;
 };
 
-/// A twisted outline (TwistedPart), by z from its `middle`, which is `middle[2]` above the part's. `growth` is the
-/// faster of the changes of scale, `reach` as in the part. Values within `doubt` may be zero.
+/// A twisted outline (TwistedPart), with z counted from the part's middle. `middle` is where the box's stands. `growth`
+/// is the faster of the changes of scale, `reach` as in the part. Values within `doubt` may be zero.
 struct TwistedRecord : WallsRecord {
   static constexpr std::size_t middle = size, low = size + 3, high = size + 4, least_to_caps = size + 5,
                                turn = size + 6, scale = size + 7, scale_slope = size + 9, growth = size + 11,

@@ -126,10 +126,16 @@ void LeafRegions::add_shape(const Leaf& leaf, RegionLeaf& region) {
       region.shape = static_cast<std::uint32_t>(rings_.size());
       rings_.push_back({normalize(map.column(2)), scale * primitive.R, scale * primitive.r});
     } else if constexpr (std::is_same_v<P, TwistedPrism>) {
-      // The finest parts are an eighth of this: the plane of the outline turns by half a radian in one (TwistedPart).
-      const double turn = half_pi * std::fabs(primitive.twist / 90), height = length(map.column(2)) * primitive.h;
-      region.extent = std::min(region.extent, 8 * TwistedPart::most_turn * height / turn);
-      region.has_small_pieces = records_ != nullptr;
+      // Walls are followed where the outline turns by no more than a radian (TwistedPart). Parts of a quarter of that
+      // have fewer (by trial on OpenSCAD's screw), but there must not be too many of them: of a spring or a thread they
+      // are larger, or too large to be of use. The finest are a sixteenth of the extent.
+      constexpr double most_parts = 0x1p15;
+      const double height = length(map.column(2)) * primitive.h;
+      const double height_of_radian = height / (half_pi * std::fabs(primitive.twist / 90));
+      const double affordable = std::sqrt(leaf.bounds.surface_area() / most_parts);
+      region.has_small_pieces = records_ != nullptr && affordable <= 0.75 * height_of_radian;
+      if (!region.has_small_pieces) return;
+      region.extent = std::min(region.extent, 16 * std::max(0.25 * height_of_radian, affordable));
     } else if constexpr (std::is_same_v<P, Box>) {
       if (maps_axes_to_axes(map)) {
         region.kind = RegionLeaf::Kind::plain;

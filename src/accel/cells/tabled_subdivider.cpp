@@ -100,7 +100,7 @@ TabledSubdivider::Part TabledSubdivider::make_part(const Box3& box, const Folded
       return;
     }
     may_cost_less |= leaf.has_windows() || leaf.has_pieces;
-    is_too_large |= leaf.has_small_pieces;
+    is_too_large |= leaf.has_small_pieces && pieces_.was_too_large();
     around = hull(around, surface);
     const bool is_unknown = input_.records.of_leaf[leaf.leaf.get()].kind() == RecordKind::general;
     followed += static_cast<double>(leaf.price);

@@ -15,11 +15,13 @@ namespace tenon::cells {
 
 /// Makes a TwistedRecord of what a twisted outline comes to in a box.
 ///
-/// TwistedLine turns a place by balls: with one that is known to e, each of its coordinates is then known to e. What a
-/// segment's function makes of that, over the length of its gradient, is √2 e at most. An arc's is
-/// bulge p·(p - chord) + flatness cross(chord, p) over (1 + bulge²) / 2 chords. Near an arc of at most half a circle p
-/// and p - chord are together no longer than √2 chords: (4 bulge + √2 (1 - bulge²)) / (1 + bulge²) e, below 2.5 e. The
-/// bound of a crossing is two and a half times that over the slope, for which there is room with twice the error.
+/// What TwistedLine makes of a place that is off by e, in a segment's function over the length of its gradient, is √2 e
+/// at most. An arc's function is bulge p·(p - chord) + flatness cross(chord, p) over (1 + bulge²) / 2 chords. Near an
+/// arc of at most half a circle p and p - chord are together no longer than √2 chords: (4 bulge + √2 (1 - bulge²)) / (1
+/// + bulge²) e, below 2.5 e. Its balls do not know that the errors of both coordinates by the turn go together, which
+/// makes √2 times as much of them; nor that those of a scale do in the place and in what it is compared with, the
+/// scaled ends of a wall, which may be far away. The bound of a crossing is two and a half times the error over the
+/// slope. With twice the error there is room for 1.6 times as much.
 class TwistedRecorder {
  public:
   /// @param center  what the record's places are relative to
@@ -33,11 +35,11 @@ class TwistedRecorder {
     const double most = certainty.most_stretch();
     const double growth = std::max(std::fabs(part.scale_slope.x), std::fabs(part.scale_slope.y));
     const double extent = most * (scale.reach + length(placement.world_origin()));
-    // Of a place in the plane of the outline: by that of the point, by the scale and the turn there, and by roundings.
-    const double across = (std::hypot(errors.x, errors.y) + growth * part.reach * errors.z) / part.least_scale;
-    const double turn = std::fabs(part.turn) * errors.z + gamma(16) * (1 + part.turn_to_here) + sine_cosine_error;
     double reach = part.reach;
     for (const OutlineEdge& wall : part.walls) reach = std::max(reach, length(wall.from) + length(wall.chord()));
+    // Of a place in the plane of the outline: by that of the point, by the scale and the turn there, and by roundings.
+    const double across = (std::hypot(errors.x, errors.y) + 3 * growth * reach * errors.z) / part.least_scale;
+    const double turn = std::fabs(part.turn) * errors.z + gamma(16) * (1 + part.turn_to_here) + sine_cosine_error;
     const double place_error = across + part.reach * turn + gamma(64) * (extent / part.least_scale + reach);
     const bool has_arcs = std::any_of(part.walls.begin(), part.walls.end(), [](const auto& w) { return w.is_arc(); });
     const double error = (has_arcs ? 2.5 : 1.5) * place_error;
