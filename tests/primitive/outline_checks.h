@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "primitive/arc.h"
 #include "primitive/concept.h"
@@ -53,6 +54,65 @@ inline int crossings(const OutlineEdge& edge, const Vec2& a, const Vec2& b) {
     last = next;
   }
   return count;
+}
+
+// What solids say that they come to within boxes (walls_within), held against what they say of points.
+template <class Part>
+struct WallParts {
+  static constexpr std::size_t most_walls = 5;
+  Part part;  // the last one
+  int parts = 0, with_arcs = 0, crowded = 0, points = 0, inside = 0;
+
+  // In a random box, around a place of the solid's frame, or turned against that. The way from the place that is known
+  // tells of every point.
+  // @param place_of  of the outline's plane, of a point of the box; nothing beyond the caps
+  // @return the box, where there is a part
+  template <class Solid, class PlaceOf>
+  std::optional<LocalBox> check(const Solid& solid, const Vec3& around, double largest, Random& random,
+                                const PlaceOf& place_of) {
+    const Affine3 map =
+        random.chance(0.5) ? Affine3::rotate({0, 0, 0}) : Affine3::rotate(90 * random.in_cube() + Vec3{10, 0, 0});
+    const auto placement = Placement::create(BoundedAffine3::elementary(map), {0, 0, 0});
+    const Vec3 middle = map.point(around), half = random.magnitude(-3, largest) * Vec3{1, random.uniform(0.3, 1), 1};
+    const LocalBox box = placement->to_local(Box3{middle - half, middle + half});
+    if (!solid.walls_within(box, most_walls, part)) return std::nullopt;
+    EXPECT_LE(part.walls.size(), most_walls);
+    ++parts;
+    crowded += part.walls.size() > 2;
+    with_arcs += std::any_of(part.walls.begin(), part.walls.end(), [](const OutlineEdge& w) { return w.is_arc(); });
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 p = placement->point_to_local(middle + half * random.in_cube());
+      const std::optional<Vec2> place = place_of(p);
+      // Chords are that far from their arcs.
+      const auto is_near = [&](const OutlineEdge& w) {
+        return std::fabs(w.distance(*place - w.from)) < 1e-3 || std::fabs(w.distance(part.place - w.from)) < 1e-3;
+      };
+      if (place && std::any_of(part.walls.begin(), part.walls.end(), is_near)) continue;
+      int passed = part.is_inside ? 1 : 0;
+      for (const OutlineEdge& wall : part.walls) passed += place ? crossings(wall, part.place, *place) : 0;
+      // By a box of no size.
+      const Region region = solid.classify(placement->to_local(Box3{map.point(p), map.point(p)}));
+      if (region == Region::straddles) continue;
+      EXPECT_EQ(place && passed % 2 != 0, region == Region::inside) << "part " << parts << " point " << i;
+      ++points;
+      inside += region == Region::inside;
+    }
+    return box;
+  }
+
+  void expect_many() const {
+    EXPECT_GT(parts, 10000);
+    EXPECT_GT(with_arcs, 5000);
+    EXPECT_GT(crowded, 500);
+    EXPECT_GT(inside, points / 5);
+    EXPECT_LT(inside, 4 * points / 5);
+  }
+};
+
+// A corner of an outline.
+inline const OutlineCorner& random_corner(const Outline& outline, Random& random) {
+  const auto& loop = outline.loops[static_cast<std::size_t>(random.below(static_cast<int>(outline.loops.size())))];
+  return loop[static_cast<std::size_t>(random.below(static_cast<int>(loop.size())))];
 }
 
 // What a solid says of each of a ray's crossings from its neighbourhood alone, against spans(), to the last bit.

@@ -98,53 +98,24 @@ TEST(PrismPieces, EdgesThatEndBeforeTheBoxBoundNothing) {
 // Where a prism is said to be what a few walls bound, the way from the place that is known tells of every point.
 TEST(PrismPieces, WallsTellThePrismWithinTheirBox) {
   Random random(93);
-  int parts = 0, with_arcs = 0, crowded = 0, points = 0, inside = 0;
+  outlines::WallParts<SweptPart> parts;
   for (int round = 0; round < 20000; ++round) {
     Prism prism = random_prism(random, true);
     if (random.chance(0.5)) prism.scale = random.uniform(0.3, 2);
-    const Affine3 map =
-        random.chance(0.5) ? Affine3::rotate({0, 0, 0}) : Affine3::rotate(90 * random.in_cube() + Vec3{10, 0, 0});
-    const auto placement = Placement::create(BoundedAffine3::elementary(map), {0, 0, 0});
-    ASSERT_TRUE(placement);
-    const auto& loop = prism.outline.loops[random.below(static_cast<int>(prism.outline.loops.size()))];
-    const OutlineCorner& corner = loop[static_cast<std::size_t>(random.below(static_cast<int>(loop.size())))];
+    const OutlineCorner& corner = outlines::random_corner(prism.outline, random);
     const double z = random.uniform(prism.low(), prism.high());
     const double s = 1 + (prism.scale - 1) * (z - prism.low()) / prism.h;
-    const Vec3 middle = map.point({s * corner.x, s * corner.y, z}) + 0.1 * random.in_cube();
-    const Vec3 half = random.magnitude(-3, 0) * Vec3{1, random.uniform(0.3, 1), 1};
-    const LocalBox box = placement->to_local(Box3{middle - half, middle + half});
-    constexpr std::size_t most = 5;
-    SweptPart part;
-    if (!prism.walls_within(box, most, part)) continue;
-    ASSERT_LE(part.walls.size(), most);
-    ++parts;
-    crowded += part.walls.size() > 2;
-    with_arcs += std::any_of(part.walls.begin(), part.walls.end(), [](const OutlineEdge& w) { return w.is_arc(); });
-    const OutlineEdges all(prism.outline);
-    for (int i = 0; i < 20; ++i) {
-      const Vec3 p = placement->point_to_local(middle + half * random.in_cube());
-      const double scale = part.scale + part.scale_slope * p.z;
-      ASSERT_GE(scale, part.least_scale);
-      ASSERT_LE(scale, part.most_scale);
-      const Vec2 place{p.x / scale, p.y / scale};
-      // Chords are that far from their arcs.
-      if (all.is_near_edge(place, 1e-3) || all.is_near_edge(part.place, 1e-3)) continue;
-      int passed = part.is_inside ? 1 : 0;
-      for (const OutlineEdge& wall : part.walls) passed += outlines::crossings(wall, part.place, place);
-      const bool is_between_caps = part.low < p.z && p.z < part.high;
-      // By a box of no size.
-      const Region region = prism.classify(placement->to_local(Box3{map.point(p), map.point(p)}));
-      if (region == Region::straddles) continue;
-      ASSERT_EQ(passed % 2 != 0 && is_between_caps, region == Region::inside) << "round " << round << " point " << i;
-      ++points;
-      inside += region == Region::inside;
-    }
+    const SweptPart& part = parts.part;
+    parts.check(prism, Vec3{s * corner.x, s * corner.y, z} + 0.1 * random.in_cube(), 0, random,
+                [&](const Vec3& p) -> std::optional<Vec2> {
+                  const double scale = part.scale + part.scale_slope * p.z;
+                  EXPECT_GE(scale, part.least_scale);
+                  EXPECT_LE(scale, part.most_scale);
+                  if (!(part.low < p.z && p.z < part.high)) return std::nullopt;
+                  return Vec2{p.x / scale, p.y / scale};
+                });
   }
-  EXPECT_GT(parts, 10000);
-  EXPECT_GT(with_arcs, 5000);
-  EXPECT_GT(crowded, 800);
-  EXPECT_GT(inside, points / 5);
-  EXPECT_LT(inside, 4 * points / 5);
+  parts.expect_many();
 }
 
 // A crossing that is found from its neighbourhood is that of spans(), to the last bit.
