@@ -49,6 +49,19 @@ HWY_INLINE hn::Vec<D> Slowness(D d, hn::Vec<D> x) {
   return hn::Max(hn::Min(hn::Div(hn::Set(d, 1.0), x), most), hn::Neg(most));
 }
 
+/// The part of a ray between two planes across z of a frame.
+/// @param z, slope  where it begins there, and how far it goes along z
+/// @param least     over the length of the ray: slopes up to there are not certain
+template <class D>
+HWY_INLINE Stretch<D> BetweenCaps(D d, hn::Vec<D> z, hn::Vec<D> slope, hn::Vec<D> length, hn::Vec<D> low,
+                                  hn::Vec<D> high, hn::Vec<D> least, double reach) {
+  Stretch<D> slab = WholeStretch(d);
+  ClipAligned(d, z, Slowness(d, slope), low, high, slab);
+  const auto to_cap = hn::Min(hn::Abs(hn::Sub(z, low)), hn::Abs(hn::Sub(high, z)));
+  slab.unsure = DoubtFlat(d, slope, length, least, reach, to_cap);
+  return slab;
+}
+
 /// Lines that graze a quadric, or pass the tip of a cone, but not between two places.
 ///
 /// F(t) = a t² + 2 b t + c has the discriminant D, so a F = (a t + b)² - D. With |D| up to `graze` and (a t + b)² above

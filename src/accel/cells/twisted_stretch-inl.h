@@ -235,12 +235,8 @@ HWY_NOINLINE Stretch<D> TwistedStretch(D d, const SceneRays<D>& ray, const Share
   const auto shortest = ShortestStretch(d, ray);
   const auto begin = hn::Sub(hn::Sub(t_in, shift), shortest), end = hn::Add(hn::Sub(t_out, shift), shortest);
 
-  Stretch<D> slab = WholeStretch(d);
-  const auto low = r[TwistedRecord::low], high = r[TwistedRecord::high];
-  ClipAligned(d, o.z, Slowness(d, v.z), low, high, slab);
-  const auto to_cap = hn::Min(hn::Abs(hn::Sub(o.z, low)), hn::Abs(hn::Sub(high, o.z)));
-  slab.unsure = DoubtFlat(d, v.z, ray.length, r[TwistedRecord::least_to_caps], reach, to_cap);
-
+  const Stretch<D> slab = BetweenCaps(d, o.z, v.z, ray.length, r[TwistedRecord::low], r[TwistedRecord::high],
+                                      r[TwistedRecord::least_to_caps], reach);
   TwistedWalls<D> walls(r.values, ray, o, v, begin, end, lanes);
   walls.FindCrossings();
   return walls.OnlyPart(slab, shift, shortest);
