@@ -153,7 +153,8 @@ std::optional<Crossing> crossing_between_caps(const Chord& slab, std::span<const
   const bool is_known = crossings.size() == 1 && wall.sure && !wall.given && wall.lo >= first && wall.hi <= last;
   const bool is_clear = entering ? cap.hi < wall.lo : cap.lo > wall.hi;
   if (!is_known || !is_clear || std::fabs(wall.t - t) > near) return std::nullopt;
-  return crossing_at({wall, first_wall + face_of_edge(wall.edge, wall.rising, entering)}, entering);
+  return crossing_at({{wall.t, wall.lo, wall.hi}, first_wall + face_of_edge(wall.edge, wall.rising, entering)},
+                     entering);
 }
 
 void emit_between_caps(const Chord& slab, const std::vector<BoundaryCrossing>& boundary, bool inside,

@@ -55,7 +55,7 @@ std::optional<Crossing> Revolution::crossing_near(const LocalRay& ray, double t,
   const EdgeCrossing& wall = crossings.front();
   const bool is_known = wall.sure && !wall.given && wall.lo >= first && wall.hi <= last;
   if (!is_known || std::fabs(wall.t - t) > near) return std::nullopt;
-  return crossing_at({wall, face_of_edge(wall.edge, wall.rising, entering)}, entering);
+  return crossing_at({{wall.t, wall.lo, wall.hi}, face_of_edge(wall.edge, wall.rising, entering)}, entering);
 }
 
 /// The part of the outline's half-plane that a box goes through.
