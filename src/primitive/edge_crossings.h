@@ -19,9 +19,10 @@ struct EdgeCrossing : BoundedRoot {
   bool given = false;   ///< the face the ray starts on: at exactly t = 0, and lookups cannot tell within the interval
 
   /// Of the edge whose wall the ray starts on.
-  /// @param doubt  how far from there lookups may still take the wrong side
-  static EdgeCrossing at_start(std::uint32_t edge, bool rising, double doubt) {
-    return {{0, -doubt, doubt}, edge, rising, true, true};
+  /// @param doubt       how far from there lookups may still take the wrong side ...
+  /// @param begin, end  ... where the line is over the edge's box; beyond none does
+  static EdgeCrossing at_start(std::uint32_t edge, bool rising, double doubt, double begin, double end) {
+    return {{0, std::max(-doubt, std::min(begin, 0.0)), std::min(doubt, std::max(end, 0.0))}, edge, rising, true, true};
   }
 };
 

@@ -172,11 +172,8 @@ class Prism::Line {
     if (std::fabs(f.slope) > f.slope_error) {
       const End at = plane_end(f, 0, false);
       if (on_edge_ == static_cast<int>(index)) {
-        EdgeCrossing start = EdgeCrossing::at_start(index, f.slope > 0, std::max({0.0, -at.lo, at.hi}));
-        // Beyond the edge's box no lookup errs.
-        start.lo = std::max(start.lo, std::min(begin, 0.0));
-        start.hi = std::min(start.hi, std::max(end, 0.0));
-        out.push_back(start);
+        const double doubt = std::max({0.0, -at.lo, at.hi});
+        out.push_back(EdgeCrossing::at_start(index, f.slope > 0, doubt, begin, end));
         return;
       }
       crossing.t = at.t;
@@ -254,7 +251,7 @@ class Prism::Line {
       const bool is_start = given && root.t == 0 && root.lo == 0 && root.hi == 0;
       if (is_start) {
         const double doubt = doubt_around_zero(2 * b, a, error + std::fabs(c));
-        out.push_back(EdgeCrossing::at_start(index, first == first_rises, doubt));
+        out.push_back(EdgeCrossing::at_start(index, first == first_rises, doubt, begin, end));
         continue;
       }
       const End moved = lateral_end(root, at, 0);

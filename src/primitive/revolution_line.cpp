@@ -185,7 +185,9 @@ class Revolution::Line::RootCollector {
     out_.push_back(crossing);
   }
   void add_unknown() { out_.push_back({{0.5 * begin_ + 0.5 * end_, begin_, end_}, index_, false, false, false}); }
-  void add_start(bool rising, double doubt) { out_.push_back(EdgeCrossing::at_start(index_, rising, doubt)); }
+  void add_start(bool rising, double doubt) {
+    out_.push_back(EdgeCrossing::at_start(index_, rising, doubt, begin_, end_));
+  }
 
  private:
   const Line& line_;

@@ -117,14 +117,15 @@ void TwistedLine::cross_edges(const OutlineEdges& edges, const Interval& whole, 
   const auto index = static_cast<std::uint32_t>(on_edge_);
   const auto is_start = [index](const EdgeCrossing& c) { return c.given && c.edge == index; };
   if (std::any_of(out.begin(), out.end(), is_start)) return;
-  const EdgeCrossing start = start_on(index, edges.edges()[index]);
+  const EdgeCrossing start = start_on(index, edges.edges()[index], whole);
   if (window.meets(start.lo, start.hi)) out.push_back(start);
 }
 
-EdgeCrossing TwistedLine::start_on(std::uint32_t index, const OutlineEdge& edge) const {
+EdgeCrossing TwistedLine::start_on(std::uint32_t index, const OutlineEdge& edge, const Interval& within) const {
   const Enclosure f = edge_over(edge, {0, 0});
   const double slope = f.slope.middle, error = f.middle.radius + std::fabs(f.middle.middle);
-  return EdgeCrossing::at_start(index, slope > 0, doubt_around_zero(slope, 0.5 * f.curvature.middle, error));
+  const double doubt = doubt_around_zero(slope, 0.5 * f.curvature.middle, error);
+  return EdgeCrossing::at_start(index, slope > 0, doubt, within.begin, within.end);
 }
 
 // Where the line is no farther from the axis than a wall reaches, and no nearer than one comes: a part, or two with the
@@ -277,7 +278,7 @@ void TwistedLine::cross_start(std::uint32_t index, const OutlineEdge& edge, cons
                               const Enclosure& f, int depth, std::vector<EdgeCrossing>& out) {
   const double quarter = 0.25 * (interval.end - interval.begin);
   if (f.slope.has_sign() || is_in_doubt(edge, interval, f) || depth >= deepest || --looks_ <= 0) {
-    out.push_back(start_on(index, edge));
+    out.push_back(start_on(index, edge, interval));
     // Nothing is known of a second one so near.
     if (!f.slope.has_sign()) report(index, edge, interval.middle(), interval, !out.back().rising, false, out);
     return;

@@ -71,7 +71,7 @@ class TwistedLine {
     static bool may_cross(const OutlineEdge&) { return true; }
   };
 
-  EdgeCrossing start_on(std::uint32_t index, const OutlineEdge& edge) const;
+  EdgeCrossing start_on(std::uint32_t index, const OutlineEdge& edge, const Interval& within) const;
   int parts_beside_walls(const Interval& whole, Interval (&parts)[2]) const;
   /// The same of a sweep that does not scale.
   Capsule straight_way(const Interval& interval) const;

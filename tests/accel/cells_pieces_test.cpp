@@ -117,6 +117,32 @@ TEST(Cells, AreNotWithoutEndOfTwistedPrisms) {
   }
 }
 
+// Rays that start just above the topmost face and leave go through no cell; those that go down do.
+TEST(Cells, AreNotEnteredByRaysThatLeaveTheScene) {
+  SceneBuilder b;
+  const Outline triangle{{{{-3, -2, 0}, {3, -2, 0}, {0, 4, 0}}}};
+  const CsgTree tree = b.tree(b.primitive("prism", {triangle, 1.0, false, 1.0}));
+  const auto cells = build_accelerator("cells", tree);
+  ASSERT_TRUE(cells.ok());
+  const auto context = (*cells)->make_context();
+  Draw draw(59);
+  for (const double side : {1.0, -1.0}) {
+    const auto before = context->statistics[RayKind::primary].cells_visited;
+    for (int i = 0; i < 100; ++i) {
+      Vec3 direction = draw.direction();
+      direction.z = side * std::max(std::fabs(direction.z), 0.1);
+      const Hit hit = (*cells)->first_hit({{{draw.real(-1, 1), draw.real(-1, 1), 1 + 4e-6}, direction}}, *context);
+      EXPECT_EQ(hit.found(), side < 0);
+    }
+    const auto visited = context->statistics[RayKind::primary].cells_visited - before;
+    if (side > 0) {
+      EXPECT_EQ(visited, 0u);
+    } else {
+      EXPECT_GE(visited, 100u);
+    }
+  }
+}
+
 // Revolutions come to a few walls in most cells: cones, cylinders, planes across the axis, parts of balls and rings,
 // from within and outside, and faces that lie in one another's.
 TEST(Cells, FollowRevolutionsByTheirWalls) {

@@ -103,7 +103,7 @@ struct WallParts {
   void expect_many() const {
     EXPECT_GT(parts, 10000);
     EXPECT_GT(with_arcs, 5000);
-    EXPECT_GT(crowded, 500);
+    EXPECT_GT(crowded, 800);
     EXPECT_GT(inside, points / 5);
     EXPECT_LT(inside, 4 * points / 5);
   }
@@ -134,6 +134,21 @@ struct NearbyCrossings {
       EXPECT_EQ(known->entering, c.entering);
       EXPECT_GE(known->bound, c.bound);
     }
+  }
+
+  // The same for a ray that starts where this one meets the solid first.
+  template <class Solid>
+  void check_from_start(const Solid& solid, const LocalRay& ray, Random& random) {
+    Spans spans;
+    solid.spans(ray, spans);
+    const auto start = std::find_if(spans.begin(), spans.end(), [](const Crossing& c) { return std::isfinite(c.t); });
+    if (start == spans.end()) return;
+    LocalRay next = ray;
+    next.origin = ray.origin + start->t * ray.direction;
+    next.origin_error = ray.origin_error + (start->bound + 0x1p-48) * (abs(ray.direction) + Vec3{1, 1, 1});
+    next.direction = random.direction();
+    next.on_face = static_cast<int>(start->face);
+    check(solid, next, random);
   }
 };
 

@@ -134,6 +134,7 @@ TEST(PrismPieces, CrossingsFoundFromNearbyAreThoseOfSpans) {
       ray.origin_error = {error, error, error};
       ray.direction_error = 0.1 * ray.origin_error;
       crossings.check(prism, ray, random);
+      crossings.check_from_start(prism, ray, random);
     }
   }
   EXPECT_GT(crossings.found, crossings.asked / 2);

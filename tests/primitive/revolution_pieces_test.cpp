@@ -79,6 +79,7 @@ TEST(RevolutionPieces, CrossingsFoundFromNearbyAreThoseOfSpans) {
       ray.origin_error = {error, error, error};
       ray.direction_error = 0.1 * ray.origin_error;
       crossings.check(solid, ray, random);
+      crossings.check_from_start(solid, ray, random);
     }
   }
   EXPECT_GT(crossings.found, crossings.asked / 2);

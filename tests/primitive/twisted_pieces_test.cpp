@@ -38,7 +38,7 @@ TEST(TwistedPieces, WallsTellTheSolidWithinTheirBox) {
                        solid.low() + share * solid.h};
     const TwistedPart& part = parts.part;
     const auto box =
-        parts.check(solid, on_edge + 0.05 * random.in_cube(), -0.5, random, [&](const Vec3& p) -> std::optional<Vec2> {
+        parts.check(solid, on_edge + 0.05 * random.in_cube(), -0.2, random, [&](const Vec3& p) -> std::optional<Vec2> {
           const double z = p.z - part.middle, turn = part.turn * z, c = std::cos(turn), s = std::sin(turn);
           const double a = p.x / (part.scale.x + part.scale_slope.x * z);
           const double b = p.y / (part.scale.y + part.scale_slope.y * z);
@@ -68,6 +68,7 @@ TEST(TwistedPieces, CrossingsFoundFromNearbyAreThoseOfSpans) {
       ray.origin_error = {error, error, error};
       ray.direction_error = 0.1 * ray.origin_error;
       crossings.check(solid, ray, random);
+      crossings.check_from_start(solid, ray, random);
     }
   }
   EXPECT_GT(crossings.found, crossings.asked / 2);

@@ -13,7 +13,9 @@ CellTree CellTree::build(const CsgTree& tree, const Box3& box, const CellScale& 
   result.scale = scale;
   result.margin = enclosure_margin(tree);
   result.ranks = OwnerRanks(tree);
-  // Rays are met by what lies around crossings alone, cells a good deal farther out.
+  // Crossings lie within a resolution of the solid's box, and others matter within 8 on either side (CellScale): a ray
+  // that is met by this box comes and goes twice as far beside them, at least. Its cells stand off by the slack of
+  // single precision, which is 128 resolutions of a scene.
   result.box = grown(box, 32 * result.scale.resolution);
   result.center = result.box.center();
   for (int axis = 0; axis < 3; ++axis) {

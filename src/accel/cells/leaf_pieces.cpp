@@ -43,11 +43,11 @@ bool LeafPieces::find_walls(const Leaf& leaf, const LocalBox& local) {
       return primitive.walls_within(local, most_walls, swept_) && outline_.record(leaf, scale_, center_, swept_, box_);
     } else if constexpr (requires { primitive.walls_within(local, most_walls, twisted_); }) {
       kind_ = RecordKind::twisted_piece;
-      return primitive.walls_within(local, most_twisted_walls, twisted_) &&
+      return primitive.walls_within(local, most_walls, twisted_) &&
              twisted_record_.record(leaf, scale_, center_, twisted_, box_);
     } else if constexpr (requires { primitive.walls_within(local, most_walls, turned_); }) {
       kind_ = RecordKind::revolved_piece;
-      return primitive.walls_within(local, most_turned_walls, turned_) &&
+      return primitive.walls_within(local, most_walls, turned_) &&
              revolved_.record(leaf, scale_, center_, turned_, box_);
     } else {
       return false;

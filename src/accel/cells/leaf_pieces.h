@@ -42,7 +42,7 @@ class LeafPieces {
 
  private:
   // By trial on OpenSCAD's examples: half as many made text slower.
-  static constexpr std::size_t most_walls = 16, most_turned_walls = 16, most_twisted_walls = 16;
+  static constexpr std::size_t most_walls = 16;
 
   bool find_planes(const Leaf& leaf, const LocalBox& local);
   bool find_walls(const Leaf& leaf, const LocalBox& local);
