@@ -214,6 +214,7 @@ class MeshBuilder {
     const auto crossing = find_self_intersection(mesh());
     if (crossing) tell(*crossing);
     const IdleParts idle = find_idle_parts(mesh());
+    mesh().winds_once = !crossing && idle.winds_once;
     tell(idle.inside_out, idle.part_count, "inside out, with no solid around; nothing is left of it: turn its faces");
     if (crossing) return;
     tell(idle.swallowed, idle.part_count,

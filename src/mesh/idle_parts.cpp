@@ -19,9 +19,13 @@ class PartFinder {
     std::iota(parent_.begin(), parent_.end(), 0u);
     const std::vector<EdgeUse> uses = sorted_edge_uses(mesh.triangles);
     for (std::size_t i = 1; i < uses.size(); ++i) {
-      if (uses[i].ends() == uses[i - 1].ends()) join(uses[i].triangle, uses[i - 1].triangle);
+      if (uses[i].ends() != uses[i - 1].ends()) continue;
+      join(uses[i].triangle, uses[i - 1].triangle);
+      has_crowded_edges_ |= i > 1 && uses[i].ends() == uses[i - 2].ends();
     }
   }
+  /// Whether an edge has more than two triangles.
+  bool has_crowded_edges() const { return has_crowded_edges_; }
   std::uint32_t lowest_of(std::uint32_t triangle) {
     while (parent_[triangle] != triangle) {
       parent_[triangle] = parent_[parent_[triangle]];
@@ -37,6 +41,7 @@ class PartFinder {
     parent_[std::max(a, b)] = std::min(a, b);
   }
   std::vector<std::uint32_t> parent_;
+  bool has_crowded_edges_ = false;
 };
 
 Box3 bounds_of(const TriangleMesh& mesh) {
@@ -96,6 +101,8 @@ IdleParts find_idle_parts(const TriangleMesh& mesh) {
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
   IdleParts found;
   for (std::uint32_t t = 0; t < count; ++t) found.part_count += parts.lowest_of(t) == t;
+  // Around a single part is nothing, and it faces outward (build_mesh).
+  found.winds_once = !parts.has_crowded_edges();
   if (found.part_count <= 1) return found;
   const Windings windings(mesh);
   std::vector<Part> known(count);
@@ -107,6 +114,9 @@ IdleParts find_idle_parts(const TriangleMesh& mesh) {
     if (part.winding.value_or(0) == 0) continue;
     IdleParts::Parts& told = *part.winding < 0 ? found.inside_out : found.swallowed;
     if (told.count++ == 0) told.first = t;
+  }
+  for (std::uint32_t t = 0; t < count && found.winds_once; ++t) {
+    found.winds_once = known[parts.lowest_of(t)].winding == 0;
   }
   return found;
 }

@@ -16,6 +16,10 @@ struct IdleParts {
   std::size_t part_count = 0;  ///< of the whole mesh
   Parts inside_out;  ///< facing inward where no other part is around: the mesh winds around them less than never
   Parts swallowed;   ///< facing outward within another part
+  /// Known that the mesh does not wind around what lies before any part, and that no edge has more than two triangles:
+  /// then, where it does not pass through itself, it winds around each place once or not at all. For all triangles of a
+  /// part hang together by such edges, so it winds as often around what lies before them all.
+  bool winds_once = false;
 };
 
 /// Holds one triangle of each part (what hangs together by edges) against how often the mesh winds around the place

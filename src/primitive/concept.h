@@ -44,6 +44,7 @@ Field(std::string_view, Unit, T P::*, std::string_view) -> Field<P, T>;
 ///   tells_from_start       with spans_within(): a ray of the world needs no more than the window from 0 on
 ///   crossing_near(ray, t, near, entering)   if any: the crossing of spans() within `near` of t, if it is certainly the
 ///                          only one within twice that; nothing where that takes the whole of spans() to tell
+///   next_crossing(ray, search)   if any: the first crossing of spans() behind a place (CrossingSearch)
 ///   planes_within(box, planes)   if any: how some planes, with normals of length 1, make up the part of the solid
 ///                          within the box (PlanarPart)
 ///   walls_within(box, most, part)   if any: the solid within the box as an outline that is swept, twisted or turned

@@ -106,6 +106,29 @@ std::optional<Crossing> crossing_near(const PrimitiveStore& store, PrimitiveId i
   });
 }
 
+bool has_next_crossing(const PrimitiveStore& store, PrimitiveId id) {
+  return visit(store.lists(), id, [](const auto& primitive) {
+    return requires(const LocalRay& ray) {
+      primitive.next_crossing(ray, CrossingSearch{});
+    };
+  });
+}
+
+NextCrossing next_crossing(const PrimitiveStore& store, PrimitiveId id, const Placement::MappedRay& mapped,
+                           const CrossingSearch& search) {
+  if (!is_finite(mapped.ray) || mapped.ray.direction == Vec3{}) return {};
+  return visit(store.lists(), id, [&](const auto& primitive) -> NextCrossing {
+    if constexpr (requires { primitive.next_crossing(mapped.ray, search); }) {
+      const double shift = mapped.shift;
+      NextCrossing next = primitive.next_crossing(mapped.ray, {search.begin - shift, search.from - shift, search.near});
+      if (next.kind == NextCrossing::Kind::found && shift != 0) move(next.crossing, shift);
+      return next;
+    } else {
+      return {};
+    }
+  });
+}
+
 double support(const PrimitiveStore& store, PrimitiveId id, const Vec3& n) {
   return visit(store.lists(), id, [&](const auto& primitive) { return primitive.support(n); });
 }

@@ -5,6 +5,7 @@
 
 #include "primitive/local_box.h"
 #include "primitive/local_ray.h"
+#include "primitive/next_crossing.h"
 #include "primitive/placement.h"
 #include "tenon/primitive/crossing.h"
 #include "tenon/primitive/primitive_store.h"
@@ -43,6 +44,15 @@ bool has_crossing_near(const PrimitiveStore& store, PrimitiveId id);
 /// @param t, near  of the ray that was mapped
 std::optional<Crossing> crossing_near(const PrimitiveStore& store, PrimitiveId id, const Placement::MappedRay& mapped,
                                       double t, double near, bool entering);
+
+/// Whether next_crossing() may say something.
+bool has_next_crossing(const PrimitiveStore& store, PrimitiveId id);
+
+/// The first crossing of spans() behind a place, sooner than by all of them.
+/// @param mapped  the ray in the primitive's frame
+/// @param search  of the ray that was mapped
+NextCrossing next_crossing(const PrimitiveStore& store, PrimitiveId id, const Placement::MappedRay& mapped,
+                           const CrossingSearch& search);
 
 /// The largest n·p over the primitive's points p, in the local frame; +inf where it is unbounded.
 double support(const PrimitiveStore& store, PrimitiveId id, const Vec3& n);

@@ -96,6 +96,15 @@ void Mesh::Index::walk(const MeshLine& line, const LineWindow& window, FunctionR
   }
 }
 
+void Mesh::Index::walk_forward(const MeshLine& line, const LineWindow& window,
+                               FunctionRef<double(std::uint32_t)> visit) const {
+  if (const auto* bvh = std::get_if<MeshBvh>(&structure)) {
+    bvh->walk_forward(line, window, visit);
+  } else {
+    std::get<MeshKdTree>(structure).walk(line, [&](std::uint32_t triangle) { visit(triangle); });
+  }
+}
+
 std::string Mesh::check() const {
   if (!mesh) return "mesh is missing";
   if (std::string problem = check_numbers(*mesh); !problem.empty()) return "mesh makes no solid: " + problem;
@@ -138,14 +147,17 @@ Vec3 Mesh::normal(const Vec3& point, std::uint32_t face) const {
 }
 
 // The separating axes of two convex bodies: the faces of each, and the cross products of their edges.
-bool Mesh::meets(const LocalBox& box, std::uint32_t triangle) const {
+bool Mesh::meets(const FacedBox& faced, std::uint32_t triangle) const {
+  const LocalBox& box = faced.box;
   const std::array<Vec3, 3> p = mesh->corners(triangle);
   if (!box_around(p).overlaps(box.bounds)) return false;
+  // To say so of a corner that lies beside the box by a rounding is never wrong (Region::straddles).
+  if (std::any_of(p.begin(), p.end(), [&](const Vec3& corner) { return faced.contains(corner); })) return true;
   const auto separates = [&](const Vec3& n) { return !overlap(extent_along(box, n), extent_along(p, n)); };
   const std::array<Vec3, 3> edges{p[1] - p[0], p[2] - p[1], p[0] - p[2]};
   if (separates(cross(edges[0], edges[1]))) return false;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (separates(cross(box.half_edges[(i + 1) % 3], box.half_edges[(i + 2) % 3]))) return false;
+    if (separates(faced.normals[i])) return false;
     for (const Vec3& edge : edges) {
       if (separates(cross(box.half_edges[i], edge))) return false;
     }
@@ -155,27 +167,36 @@ bool Mesh::meets(const LocalBox& box, std::uint32_t triangle) const {
 
 Region Mesh::classify(const LocalBox& box) const {
   if (!index_->bounds.overlaps(box.bounds)) return Region::outside;
+  const FacedBox faced(box);
   const auto is_clear = [&](const auto& structure) {
-    return structure.walk(box.bounds, [&](std::uint32_t t) { return !meets(box, t); });
+    return structure.walk(box.bounds, [&](std::uint32_t t) { return !meets(faced, t); });
   };
   if (!std::visit(is_clear, index_->structure)) return Region::straddles;
   if (hull) return Region::outside;
-  // No face comes near the box, so its middle tells: by a line through it, of which nothing near it may be in doubt.
+  // No face comes near the box, so its middle tells.
+  const std::optional<bool> is_inside = contains_middle(box);
+  if (!is_inside) return Region::straddles;
+  return *is_inside ? Region::inside : Region::outside;
+}
+
+// By a line through it, of which nothing near it may be in doubt.
+std::optional<bool> Mesh::contains_middle(const LocalBox& box) const {
+  if (const auto winding = index_->clear.winding_at(box.center)) return *winding > 0;
   Spans crossings;
   for (int axis = 0; axis < 3; ++axis) {
     LocalRay ray;
     ray.origin = box.center;
     ray.direction[axis] = 1;
     crossings.clear();
-    spans(ray, crossings);
+    spans_within(ray, {0, 0}, crossings);
     bool inside = false, certain = true;
     for (const Crossing& c : crossings) {
       inside ^= c.t <= 0;
       certain = certain && std::fabs(c.t) > c.bound;
     }
-    if (certain) return inside ? Region::inside : Region::outside;
+    if (certain) return inside;
   }
-  return Region::straddles;
+  return std::nullopt;
 }
 
 }  // namespace tenon

@@ -1,15 +1,18 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <variant>
 
 #include "primitive/concept.h"
+#include "primitive/faced_box.h"
 #include "primitive/mesh_bvh.h"
 #include "primitive/mesh_clear_cells.h"
 #include "primitive/mesh_kd_tree.h"
+#include "primitive/next_crossing.h"
 
 namespace tenon {
 
@@ -41,6 +44,8 @@ class Mesh {
   /// The same, but for crossings beyond the window: an entrance at -inf, or an exit at +inf, may stand for all of them
   /// where the line is inside there.
   void spans_within(const LocalRay& ray, const LineWindow& window, Spans& out) const;
+  NextCrossing next_crossing(const LocalRay& ray, const CrossingSearch& search) const;
+  std::optional<Crossing> crossing_near(const LocalRay& ray, double t, double near, bool entering) const;
   /// Where no place away from all triangles is known, a window is no help. By trial on OpenSCAD's examples.
   double window_share() const { return index_->clear.bytes() == 0 ? 1 : 0.4; }
   /// A ray that starts on a face is asked for from there on.
@@ -59,10 +64,12 @@ class Mesh {
     ClearCells clear;
 
     void walk(const MeshLine& line, const LineWindow& window, FunctionRef<void(std::uint32_t)> visit) const;
+    void walk_forward(const MeshLine& line, const LineWindow& window, FunctionRef<double(std::uint32_t)> visit) const;
   };
   static SharedMesh unit_tetrahedron();
   Vec3 flat_normal(std::uint32_t face) const;
-  bool meets(const LocalBox& box, std::uint32_t triangle) const;
+  bool meets(const FacedBox& box, std::uint32_t triangle) const;
+  std::optional<bool> contains_middle(const LocalBox& box) const;
 
   std::shared_ptr<const Index> index_;
 };

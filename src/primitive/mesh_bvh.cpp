@@ -120,8 +120,8 @@ class MeshBvh::Builder {
       Node& node = bvh_.nodes_[index];
       node.children[i] = child;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        node.lower[axis][i] = below(box.lower[static_cast<int>(axis)]);
-        node.upper[axis][i] = above(box.upper[static_cast<int>(axis)]);
+        node.ends[axis][0][i] = below(box.lower[static_cast<int>(axis)]);
+        node.ends[axis][1][i] = above(box.upper[static_cast<int>(axis)]);
       }
     }
     return static_cast<std::uint32_t>(index);

@@ -26,9 +26,12 @@ class MeshBvh {
 
   /// Calls visit(triangle) for each triangle that the line may meet, with all that it may be wrong by, and for some
   /// whose box it may meet.
-  /// @param window  those whose box the line meets beside it alone may be left out; |t| is at most line.farthest, or
-  ///                infinite
+  /// @param window  those whose box the line meets beside it alone may be left out
   void walk(const MeshLine& line, const LineWindow& window, FunctionRef<void(std::uint32_t)> visit) const;
+
+  /// The same, those in nearer boxes mostly first, as far as is still of interest: visit(triangle) returns the t of the
+  /// line where that ends from now on.
+  void walk_forward(const MeshLine& line, const LineWindow& window, FunctionRef<double(std::uint32_t)> visit) const;
 
   /// Calls visit(triangle), which returns whether to go on, for each triangle whose leaf meets this box.
   /// @return false when a visit ended the walk
@@ -57,9 +60,10 @@ class MeshBvh {
     bool is_leaf() const { return (bits & leaf_bit) != 0; }
     std::uint32_t index() const { return bits & ~leaf_bit; }
   };
-  /// Boxes rounded outward; a child that is not there has an empty one.
+  /// Boxes rounded outward, by axis their lower and their upper ends; a child that is not there has an empty one, from
+  /// +inf to -inf.
   struct alignas(32) Node {
-    std::array<std::array<float, width>, 3> lower, upper;
+    std::array<std::array<std::array<float, width>, 2>, 3> ends;
     std::array<Child, width> children;
   };
   /// The triangles of a leaf: by corner, by axis.
@@ -87,8 +91,10 @@ class MeshBvh {
  private:
   class Builder;
   static Box3 box_of(const Node& node, std::size_t i) {
-    return {{node.lower[0][i], node.lower[1][i], node.lower[2][i]},
-            {node.upper[0][i], node.upper[1][i], node.upper[2][i]}};
+    const auto at = [&](std::size_t side) {
+      return Vec3{node.ends[0][side][i], node.ends[1][side][i], node.ends[2][side][i]};
+    };
+    return {at(0), at(1)};
   }
   void fill_blocks(const TriangleMesh& mesh);
 

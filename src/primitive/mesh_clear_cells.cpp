@@ -121,12 +121,17 @@ std::optional<ClearCells::Place> ClearCells::find(const MeshLine& line, double t
     return std::nullopt;
   }
   for (int i = 0; i < most_steps; ++i, t += step) {
-    const Vec3 p = line.origin + t * line.direction;
-    if (!beside_.contains(p)) return Place{t, 0};
-    const std::int8_t winding = windings_[place_of({index_of(p.x, 0), index_of(p.y, 1), index_of(p.z, 2)})];
-    if (winding != near_triangles) return Place{t, winding};
+    if (const auto winding = winding_at(line.origin + t * line.direction)) return Place{t, *winding};
   }
   return std::nullopt;
+}
+
+std::optional<int> ClearCells::winding_at(const Vec3& p) const {
+  if (windings_.empty()) return std::nullopt;
+  if (!beside_.contains(p)) return 0;
+  const std::int8_t winding = windings_[place_of({index_of(p.x, 0), index_of(p.y, 1), index_of(p.z, 2)})];
+  if (winding == near_triangles) return std::nullopt;
+  return winding;
 }
 
 }  // namespace tenon

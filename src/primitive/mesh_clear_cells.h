@@ -33,6 +33,9 @@ class ClearCells {
   /// One behind t, or at it.
   std::optional<Place> find_behind(const MeshLine& line, double t) const { return find(line, t, 0.5 * edge_); }
 
+  /// How often the mesh winds around a point, where that is known.
+  std::optional<int> winding_at(const Vec3& point) const;
+
   std::size_t bytes() const { return windings_.size(); }
 
  private:

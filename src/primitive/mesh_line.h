@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "primitive/local_ray.h"
 #include "tenon/math/box3.h"
@@ -34,7 +36,7 @@ struct MeshLine {
     along = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     across[0] = (along + 1) % 3;
     across[1] = (along + 2) % 3;
-    scale = std::ldexp(1.0, std::clamp(-std::ilogb(size[along]), -1000, 1000));
+    scale = power_of_two_over(size[along]);
     direction = scale * ray.direction;
     direction_error = scale * ray.direction_error;
 
@@ -54,6 +56,12 @@ struct MeshLine {
     }
     // What a slab's quotient rounds by, as a distance.
     growth = off + gamma(8) * (reach + abs(origin));
+  }
+
+  // About 1 / x, from 2^-1000 to 2^1000.
+  static double power_of_two_over(double x) {
+    const int exponent = static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52) - 1023;
+    return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + std::clamp(-exponent, -1000, 1000)) << 52);
   }
 
   double t_of(const Vec3& p) const { return (p[along] - origin[along]) / direction[along]; }

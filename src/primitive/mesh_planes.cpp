@@ -83,11 +83,12 @@ PlanarPart Mesh::planes_within(const LocalBox& box, std::vector<Plane>& planes) 
     std::uint32_t triangle;
     double area;
   };
+  const FacedBox faced(sought);
   std::array<Facet, most_triangles> facets;
   std::size_t count = 0;
   const auto take = [&](std::uint32_t triangle) {
     const auto is_known = [triangle](const Facet& f) { return f.triangle == triangle; };
-    if (!meets(sought, triangle)) return true;
+    if (!meets(faced, triangle)) return true;
     if (std::any_of(facets.begin(), facets.begin() + static_cast<std::ptrdiff_t>(count), is_known)) return true;
     if (count == most_triangles) return false;
     facets[count++] = {triangle, length(flat_normal(triangle))};

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "primitive/check_crossings.h"
+#include "primitive/next_crossing_checks.h"
 #include "primitive/random_solid.h"
 #include "tenon/math/rounding.h"
 
@@ -166,6 +167,44 @@ TEST_P(Windows, ShowWhatTheWholeLineHas) {
   }
   EXPECT_GT(shown, 20'000);
   EXPECT_GT(shortened, 2'000);
+}
+
+/// The kinds that tell one crossing after another.
+class Successions : public EveryKind {
+ public:
+  static auto all() {
+    std::vector<const PrimitiveKind*> kinds;
+    for (const PrimitiveKind& kind : PrimitiveStore::kinds()) {
+      Random random(1);
+      if (kind.surface) continue;
+      const RandomSolid solid(kind, random);
+      if (has_next_crossing(solid.store, solid.id)) kinds.push_back(&kind);
+    }
+    return testing::ValuesIn(kinds);
+  }
+};
+
+TEST_P(Successions, ShowWhatTheWholeLineHas) {
+  struct Solid {
+    const RandomSolid& random_solid;
+    void spans(const LocalRay& ray, Spans& out) const { tenon::spans(random_solid.store, random_solid.id, ray, out); }
+    NextCrossing next_crossing(const LocalRay& ray, const CrossingSearch& search) const {
+      return tenon::next_crossing(random_solid.store, random_solid.id, {ray, 0}, search);
+    }
+  };
+  Random random(seed() + 3);
+  NextCrossingChecks checks;
+  for (int n = 0; n < 100'000; n += rays_per_solid) {
+    const RandomSolid solid(kind(), random);
+    for (int i = 0; i < rays_per_solid; ++i) {
+      checks.check(Solid{solid}, random.chance(0.2) ? solid.grazing_ray(random) : solid.ray(random), solid.size,
+                   random);
+      if (HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(checks.found, checks.rays / 4);
+  EXPECT_GT(checks.from_faces, checks.rays / 10);
+  EXPECT_LT(checks.unsure, checks.rays / 4);
 }
 
 // The ray is known to within errors; the exact line is any other within them.
@@ -360,6 +399,7 @@ TEST_P(Battery, RaysThatAreNotRaysCrossNothing) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Battery, EveryKind::all(), EveryKind::label);
 INSTANTIATE_TEST_SUITE_P(Kinds, Windows, Windows::all(), EveryKind::label);
+INSTANTIATE_TEST_SUITE_P(Kinds, Successions, Successions::all(), EveryKind::label);
 
 // The battery can fail: a sphere whose bounds are ten times too small, one that is too large by a few units in the last
 // place, one whose grazing chords are dropped.

@@ -24,7 +24,8 @@ struct TriangleMesh {
   std::vector<Vec3> normals;            ///< for shading, any length but zero; empty where faces are flat
   std::vector<Corners> corner_normals;  ///< into `normals`, one entry a triangle; empty where `normals` is
   MeshStructure local = MeshStructure::bvh;
-  std::string source;  ///< the statement of the scene language that makes it again; may be empty
+  bool winds_once = false;  ///< known, of a solid: it winds around each place once or not at all
+  std::string source;       ///< the statement of the scene language that makes it again; may be empty
 
   /// The corners of a triangle.
   std::array<Vec3, 3> corners(std::size_t triangle) const {
