@@ -45,9 +45,9 @@ struct alignas(64) Cell {
   std::array<RecordRef, most_tabled> records;
   std::array<LeafId, most_tabled> leaves;
   std::uint8_t leaf_count = 0;
-  bool general : 1 = false;       ///< some leaf has no record
-  bool has_instance : 1 = false;  ///< all of those are instances
-  bool extended = false;          ///< more than six leaves: the expression stands in CellTree::symbols
+  bool general : 1 = false;     ///< some leaf has no record
+  bool successive : 1 = false;  ///< all of those tell their crossings one after another
+  bool extended = false;        ///< more than six leaves: the expression stands in CellTree::symbols
   Values values = Values::solid;
   /// Of Values::solid: who owns the solid's points here. Else an index into CellStore::media.
   std::uint32_t owner_or_media = CellOwner{}.leaf.get();

@@ -13,8 +13,12 @@ namespace tenon::cells {
 struct CellCost {
   static constexpr double split = 0.45;  ///< a step down the tree
   static constexpr double visit = 0.7;   ///< a visit to a cell
-  /// A leaf without a record has the classifier follow the ray through the cell, by spans().
+  /// A leaf without a record, but for instances and meshes, has the classifier follow the ray through the cell, by
+  /// spans().
   static constexpr double spans_factor = 4;
+  /// What follows a ray to the next crossing of a mesh does so for all its cells: what it costs in one is in proportion
+  /// to the way that the ray goes there, but no less than this share (by trial on bored and cut meshes).
+  static constexpr double least_share = 0.05;
   /// A cell without a table is followed by the classifier, leaf by leaf.
   static constexpr double untabled_factor = 8;
 
@@ -64,6 +68,7 @@ struct CellCost {
       case RecordKind::torus:
         return 8;
       case RecordKind::instance:
+      case RecordKind::mesh:
         return 20;
       case RecordKind::general:
         break;

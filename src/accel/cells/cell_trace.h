@@ -10,6 +10,7 @@
 
 #include "accel/cells/cell_tree.h"
 #include "csg/classifier.h"
+#include "primitive/next_crossing.h"
 #include "tenon/accel/accelerator.h"
 #include "tenon/base/function_ref.h"
 #include "tenon/primitive/crossing.h"
@@ -113,10 +114,25 @@ struct CellScratch {
     bool has_windows = false;
     Spans spans;
   };
+  struct KnownNext {
+    LeafId leaf;
+    std::uint64_t ray = 0;
+    Placement::MappedRay mapped;
+    double from = 0;
+    NextCrossing next;  ///< behind `from`
+
+    /// Whether it is the next behind another place, too.
+    bool holds_from(double place) const {
+      if (next.kind == NextCrossing::Kind::unsure) return place == from;
+      return from <= place && (next.kind == NextCrossing::Kind::nothing || place < next.crossing.t);
+    }
+  };
   static constexpr std::size_t known = 64;
 
   /// A mailbox for leaves whose spans() is costly: found by the leaf's lowest bits.
   std::vector<KnownSpans> mailbox = std::vector<KnownSpans>(known);
+  /// And one for those that tell their crossings one after another.
+  std::vector<KnownNext> next_crossings = std::vector<KnownNext>(known);
   std::uint64_t ray = 0;
   std::optional<CellClassifier> classifier;  ///< for as many leaves as any cell has
   std::vector<Run> runs;                     ///< of the tile; their owner may be CellOwner::varying()

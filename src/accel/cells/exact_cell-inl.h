@@ -315,6 +315,22 @@ class ExactCell {
     return first <= last;
   }
 
+  /// The first crossing behind a place of a leaf that tells them one after another.
+  const NextCrossing& FindNext(LeafId leaf, double from) {
+    auto& known = scratch_.next_crossings[leaf.get() % CellScratch::known];
+    if (known.ray != number_ || known.leaf != leaf) {
+      known.ray = number_;
+      known.leaf = leaf;
+      known.mapped = Map(leaf, start_face(*ray_.query, leaf));
+    } else if (known.holds_from(from)) {
+      return known.next;
+    }
+    ++tests_;
+    known.from = from;
+    known.next = next_crossing(tree_.primitives, tree_[leaf].primitive, known.mapped, {ray_.begin, from, ray_.near});
+    return known.next;
+  }
+
   /// Leaves whose spans() were asked since the last call.
   std::uint64_t TakeTests() { return std::exchange(tests_, 0); }
 

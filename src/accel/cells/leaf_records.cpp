@@ -7,6 +7,7 @@
 #include "accel/cells/certainty.h"
 #include "accel/cells/planes_recorder.h"
 #include "accel/cells/spatial_order.h"
+#include "primitive/dispatch.h"
 #include "primitive/lists.h"
 
 namespace tenon::cells {
@@ -80,6 +81,7 @@ class Recorder {
 
   RecordRef record(const Leaf& leaf) {
     if (leaf.prototype) return {RecordKind::instance, leaf.prototype.get()};
+    if (has_next_crossing(tree_.primitives, leaf.primitive)) return {RecordKind::mesh, 0};
     return visit(tree_.primitives.lists(), leaf.primitive, [&](const auto& primitive) {
       if constexpr (requires { add(leaf, primitive); }) {
         return add(leaf, primitive);

@@ -12,7 +12,8 @@
 namespace tenon::cells {
 
 /// The kinds of leaf that rays are followed through by plain arithmetic. A ray that meets a cell with a `general` leaf
-/// is resolved by the classifier there; in one with an `instance` it is followed through the cells of that.
+/// is resolved by the classifier there; in one with an `instance` it is followed through the cells of that, and a
+/// `mesh` is asked for one crossing after another.
 ///
 /// A piece is what a leaf comes to in one cell (LeafPieces): a convex solid, all but one, a `notch`, or an outline of
 /// few walls that is swept, `twisted` on the way, or turned, `revolved`. Until all cells are built, its record stands
@@ -31,6 +32,7 @@ enum class RecordKind : std::uint8_t {
   twisted,
   revolved,
   instance,
+  mesh,
   convex_piece,
   notch_piece,
   outline_piece,
@@ -58,7 +60,7 @@ inline RecordKind settled(RecordKind kind) {
 
 /// Whether a leaf of the kind has a record.
 inline bool is_followed(RecordKind kind) {
-  return kind != RecordKind::general && kind != RecordKind::instance;
+  return kind != RecordKind::general && kind != RecordKind::instance && kind != RecordKind::mesh;
 }
 
 /// Where a leaf's record stands, and of what kind it is.

@@ -94,6 +94,12 @@ LeafRegions::LeafRegions(const CsgTree& tree, const LeafRecords* records)
     constexpr double feature = 0.5;
     if (region.has_windows()) region.extent *= feature;
     region.has_pieces = records != nullptr && LeafPieces::may_have(tree, leaf);
+    region.is_mesh = records != nullptr && records->of_leaf[i].kind() == RecordKind::mesh;
+    // Of a mesh of more triangles what comes to planes makes rays no faster, and takes long to find (by trial).
+    constexpr std::uint32_t most_faces = 128;
+    if (region.is_mesh && face_count(tree.primitives, leaf.primitive).value_or(0) > most_faces) {
+      region.has_pieces = false;
+    }
   }
 }
 

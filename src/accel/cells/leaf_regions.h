@@ -30,6 +30,7 @@ struct RegionLeaf {
   Kind kind = Kind::general;
   bool has_pieces = false;        ///< see LeafPieces
   bool has_small_pieces = false;  ///< only in parts that are small against the leaf
+  bool is_mesh = false;           ///< told from one crossing to the next (RecordKind::mesh)
   std::uint8_t round_axes = 0;    ///< bit a: distances along axis a count. Along the others a plain leaf is its bounds
   LeafId leaf;
   std::uint32_t shape = 0;  ///< of rings and turned boxes: which; of an instance: its PrototypeId

@@ -259,6 +259,7 @@ HWY_INLINE Stretch<D> FindStretch(D d, const SceneRays<D>& ray, RecordKind kind,
       return TorusStretch(d, ray, r, t_in, t_out, lanes);
     case RecordKind::general:
     case RecordKind::instance:
+    case RecordKind::mesh:
     case RecordKind::convex_piece:
     case RecordKind::notch_piece:
     case RecordKind::outline_piece:

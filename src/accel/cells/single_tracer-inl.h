@@ -12,9 +12,9 @@
 #include <bit>
 
 #include "accel/cells/exact_cell-inl.h"
-#include "accel/cells/instance_cell-inl.h"
 #include "accel/cells/node_stack-inl.h"
 #include "accel/cells/record_chord-inl.h"
+#include "accel/cells/successive_cell-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
@@ -98,7 +98,7 @@ class SingleTracer {
   }
 
  private:
-  friend class InstanceCell<SingleTracer>;
+  friend class SuccessiveCell<SingleTracer>;
   using Axes = hn::CappedTag<double, 4>;
   static constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -287,9 +287,11 @@ class SingleTracer {
   // Meet() for what plain arithmetic cannot do by itself.
   HWY_NOINLINE Outcome MeetOtherwise(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
     Outcome outcome = Outcome::unsure;
-    if (cell.has_instance && !cell.extended) {
-      outcome = cell.leaf_count == 1 ? MeetInstance(cell, t_in, t_out, answer)
-                                     : InstanceCell<SingleTracer>(*this, cell, t_in, t_out).Meet(answer);
+    if (cell.successive && !cell.extended) {
+      outcome = cell.leaf_count > 1 ? SuccessiveCell<SingleTracer>(*this, cell, t_in, t_out).Meet(answer)
+                : cell.records[0].kind() == RecordKind::mesh
+                    ? MeetAlone(mesh_ray(cell, 0), cell, t_in, t_out, answer)
+                    : MeetAlone(instance_ray(cell, 0), cell, t_in, t_out, answer);
     }
     return outcome == Outcome::unsure ? MeetExactly(cell, t_in, t_out, answer) : outcome;
   }
@@ -298,22 +300,25 @@ class SingleTracer {
     return {exact_, *cells_.prototypes[cell.records[place].index()], cell.leaves[place]};
   }
 
-  // Meet() for a cell that an instance has to itself. All that a boundary of the part may be one with are others of its
-  // own: no other leaf is near.
-  Outcome MeetInstance(const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
+  MeshRay mesh_ray(const Cell& cell, std::uint32_t place) { return {exact_, cell.leaves[place]}; }
+
+  // Meet() for a cell that an instance or a mesh has to itself. All that a boundary of it may be one with are others of
+  // its own: no other leaf is near.
+  template <class LeafRay>
+  Outcome MeetAlone(const LeafRay& ray, const Cell& cell, double t_in, double t_out, CellAnswer& answer) {
     const double until = t_out + start_;
     const bool any_will_do = wanted_ == Wanted::occlusion && until + 2 * asked_.near < asked_.query->t_max;
-    const Outcome outcome = instance_ray(cell, 0).Next(
-        t_in + start_, until, any_will_do ? Wanted::occlusion : Wanted::boundary, answer, *counters_);
+    const Outcome outcome =
+        ray.Next(t_in + start_, until, any_will_do ? Wanted::occlusion : Wanted::boundary, answer, *counters_);
     if (outcome != Outcome::met || any_will_do) return outcome;
-    TellBoundary(cell, answer.before, answer.after, answer);
+    TellBoundary((cell.table >> answer.before & 1) != 0, (cell.table >> answer.after & 1) != 0, answer);
     return Outcome::met;
   }
 
   // The boundary whose crossing, with its last bits, `answer` is already.
-  void TellBoundary(const Cell& cell, std::uint32_t before, std::uint32_t after, CellAnswer& answer) const {
-    answer.before = static_cast<std::uint8_t>(cell.table >> before & 1);
-    answer.after = static_cast<std::uint8_t>(cell.table >> after & 1);
+  void TellBoundary(bool before, bool after, CellAnswer& answer) const {
+    answer.before = before ? 1 : 0;
+    answer.after = after ? 1 : 0;
     answer.kind = answer.t < asked_.query->t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
   }
 

@@ -214,6 +214,7 @@ class StreamTracer {
         return MeetOneByOne(kind);
       case RecordKind::general:
       case RecordKind::instance:
+      case RecordKind::mesh:
       case RecordKind::convex_piece:
       case RecordKind::notch_piece:
       case RecordKind::outline_piece:

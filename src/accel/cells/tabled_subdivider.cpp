@@ -20,6 +20,11 @@ double mean_chord(const Box3& box) {
   return 4 * size.x * size.y * size.z / box.surface_area();
 }
 
+// Of a ray's way through a leaf, that within a box.
+double share_of_way(const RegionLeaf& leaf, const Box3& box) {
+  return std::min(1.0, mean_chord(box) / mean_chord(leaf.bounds));
+}
+
 }  // namespace
 
 std::optional<Subdivision::Built> TabledSubdivider::subdivide(const Box3& box, std::span<const Symbol> expression,
@@ -103,8 +108,10 @@ TabledSubdivider::Part TabledSubdivider::make_part(const Box3& box, const Folded
     is_too_large |= leaf.has_small_pieces && pieces_.was_too_large();
     around = hull(around, surface);
     const bool is_unknown = input_.records.of_leaf[leaf.leaf.get()].kind() == RecordKind::general;
-    followed += static_cast<double>(leaf.price);
-    hoped += is_unknown ? exact_price : static_cast<double>(leaf.price);
+    double price = static_cast<double>(leaf.price);
+    if (leaf.is_mesh) price *= std::max(share_of_way(leaf, surface), CellCost::least_share);
+    followed += price;
+    hoped += is_unknown ? exact_price : price;
     has_unknown |= is_unknown;
   });
   Part part;
@@ -124,8 +131,7 @@ TabledSubdivider::Part TabledSubdivider::make_part(const Box3& box, const Folded
 double TabledSubdivider::exact_price(const RegionLeaf& leaf, const Box3& surface) const {
   double price = static_cast<double>(leaf.exact_price);
   if (leaf.has_windows() && !surface.is_empty()) {
-    const double share = std::min(1.0, mean_chord(surface) / mean_chord(leaf.bounds));
-    price -= static_cast<double>(leaf.price_of_length) * (1 - share);
+    price -= static_cast<double>(leaf.price_of_length) * (1 - share_of_way(leaf, surface));
   }
   return price;
 }
@@ -149,11 +155,10 @@ ChildRef TabledSubdivider::add_cell(const Part& part) {
     cell.leaves[cell.leaf_count] = leaf;
     cell.records[cell.leaf_count] = record;
     cell.general |= !is_followed(record.kind());
-    cell.has_instance |= record.kind() == RecordKind::instance;
     has_unknown |= record.kind() == RecordKind::general;
     ++cell.leaf_count;
   });
-  cell.has_instance &= !has_unknown;
+  cell.successive = cell.general && !has_unknown;
   // The values there are, numbered anew: two of them take one bit. That of the outside comes first.
   const ValueTable& whole = part.rest.value;
   std::array<std::uint32_t, std::size_t{1} << SplitSearch::most> values{};

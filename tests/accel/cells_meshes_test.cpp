@@ -1,0 +1,91 @@
+#include <cmath>
+
+#include "accel/cells_checks.h"
+#include "support/meshes.h"
+
+namespace tenon {
+namespace {
+
+using fixtures::Draw;
+using fixtures::SceneBuilder;
+using namespace cells_checks;
+
+// Of meshes of many triangles rays are told one crossing after another, among what has a record, and no sooner than it
+// matters: rough balls and a ring, bored by one another and by others, hollow, within one another, in both structures.
+TEST(Cells, FollowDenseMeshesFromCrossingToCrossing) {
+  Draw draw(61);
+  for (int round = 0; round < 10; ++round) {
+    SCOPED_TRACE(round);
+    SceneBuilder b;
+    const auto mesh = [&](TriangleMesh triangles, bool winds_once = true) {
+      triangles.local = round % 3 == 2 ? MeshStructure::kd : MeshStructure::bvh;
+      triangles.winds_once = winds_once && round % 2 == 0;
+      return b.primitive("mesh", {meshes::share(std::move(triangles)), false});
+    };
+    const auto rough = [&](int levels, double size) {
+      return meshes::star(levels, [&](const Vec3&) { return size * draw.real(0.85, 1); });
+    };
+    const auto hollow = [&](double size) {
+      TriangleMesh inner = rough(2, 0.7 * size);
+      for (auto& corners : inner.triangles) std::swap(corners[1], corners[2]);
+      return mesh(meshes::together(rough(4, size), inner));
+    };
+    const SceneNodeId within = mesh(meshes::together(rough(3, 0.8), rough(2, 0.4)), false);
+    const SceneNodeId ring = mesh(meshes::ring(1.5, 0.4, 40, 20));
+    const SceneNodeId bodies = b.unite({hollow(1), b.translate({1.2, 0.3, 0}, within), b.rotate({40, 20, 0}, ring),
+                                        b.translate({0, 1, 0.5}, b.cube({1, 1, 1}))});
+    const SceneNodeId tools =
+        b.unite({b.translate({0.2, 0.1, -2}, b.cylinder(4, 0.3)), b.translate({0.5, -0.8, 0.3}, mesh(rough(3, 0.6))),
+                 b.translate({1, 0.5, 0.7}, b.sphere(0.5)), b.translate({-2, -2, -2}, b.cube({2, 2, 2}))});
+    SceneNodeId solid = b.subtract({bodies, tools});
+    if (round % 4 == 3) solid = b.intersect({bodies, b.rotate({0, 0, 30}, mesh(rough(4, 1.6))), b.sphere(1.4)});
+    const CsgTree tree = b.tree(solid);
+    for (const char* spec : {"cells", "cells:quality=fast"}) expect_same_answers(tree, spec, 400);
+    expect_streams_say_what_single_rays_say(tree, 4000);
+  }
+}
+
+// The same mesh twice with faces in common, and beside a box with which it shares some.
+TEST(Cells, FollowMeshesWhoseFacesCoincide) {
+  Draw draw(62);
+  for (int round = 0; round < 6; ++round) {
+    SCOPED_TRACE(round);
+    SceneBuilder b;
+    TriangleMesh wavy = meshes::star(3, [&](const Vec3& v) { return v.z > 0.3 ? 0.9 / v.z : draw.real(0.8, 1); });
+    wavy.winds_once = round % 2 == 0;
+    const auto solid = [&] { return b.primitive("mesh", {meshes::share(wavy), false}); };
+    const Vec3 turn = round % 3 == 0 ? Vec3{0, 0, 0} : Vec3{0, 0, draw.real(0, 90)};
+    const SceneNodeId flush = b.translate({-0.5, -0.5, 0.4}, b.cube({1, 1, 0.5}));
+    const SceneNodeId both = round < 3 ? b.unite({solid(), b.rotate(turn, solid()), flush})
+                                       : b.subtract({b.unite({solid(), flush}), b.translate({0.3, 0, 0}, solid())});
+    const CsgTree tree = b.tree(both);
+    expect_same_answers(tree, "cells", 300, 0.05);
+    expect_streams_say_what_single_rays_say(tree, 3000);
+  }
+}
+
+// A part with dense meshes, stored once, in several places.
+TEST(CellsInstances, OfMeshes) {
+  Draw draw(63);
+  for (int round = 0; round < 3; ++round) {
+    SCOPED_TRACE(round);
+    SceneBuilder b;
+    TriangleMesh rough = meshes::star(4, [&](const Vec3&) { return draw.real(0.8, 1); });
+    rough.winds_once = round > 0;
+    const SceneNodeId ball = b.primitive("mesh", {meshes::share(std::move(rough)), false});
+    const SceneNodeId part = b.subtract({b.unite({ball, b.translate({0.5, 0, 0}, b.rotate({30, 0, 50}, ball))}),
+                                         b.translate({0, 0, -2}, b.cylinder(4, 0.3)), b.cube({2, 2, 2})});
+    std::vector<SceneNodeId> parts;
+    for (int i = 0; i < 9; ++i) {
+      const Vec3 place{(round == 2 ? 1.3 : 3.5) * (i % 3), 3.5 * (i / 3), 0};
+      parts.push_back(b.translate(place, b.rotate({0, 10.0 * i, 40.0 * i}, part)));
+    }
+    const CsgTree tree = b.instanced_tree(b.unite(parts));
+    ASSERT_FALSE(tree.prototypes.empty());
+    expect_same_answers(tree, "cells", 200, 0.05);
+    expect_streams_say_what_single_rays_say(tree, 4000);
+  }
+}
+
+}  // namespace
+}  // namespace tenon
