@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace tenon {
@@ -52,36 +51,88 @@ Box3 MeshBvh::Frame::box_to_outside(const Box3& box) const {
   return outer;
 }
 
+namespace {
+
+// A place, or what is like one.
+struct Vec3f {
+  std::array<float, 3> at;
+
+  static Vec3f all(float value) { return {{value, value, value}}; }
+  void raise_to(const Vec3f& other) {
+    for (std::size_t i = 0; i < 3; ++i) at[i] = at[i] > other.at[i] ? at[i] : other.at[i];
+  }
+};
+
+// A box in the hierarchy's frame; empty at first.
+struct FrameBox {
+  static constexpr float inf = std::numeric_limits<float>::infinity();
+  Vec3f minus_lower = Vec3f::all(-inf), upper = Vec3f::all(-inf);
+
+  void take(const FrameBox& other) {
+    minus_lower.raise_to(other.minus_lower);
+    upper.raise_to(other.upper);
+  }
+  float lower(std::size_t axis) const { return -minus_lower.at[axis]; }
+  float size(std::size_t axis) const { return upper.at[axis] + minus_lower.at[axis]; }
+  float surface_area() const {
+    return is_empty() ? 0 : 2 * (size(0) * size(1) + size(1) * size(2) + size(2) * size(0));
+  }
+  bool is_empty() const { return !(size(0) >= 0); }
+};
+
+}  // namespace
+
 class MeshBvh::Builder {
  public:
-  Builder(std::span<const Box3> boxes, MeshBvh& bvh) : bvh_(bvh), boxes_(boxes), order_(boxes.size()) {
-    std::iota(order_.begin(), order_.end(), 0);
-  }
-
-  void build() {
-    if (boxes_.empty()) return;
+  Builder(std::span<const Box3> boxes, MeshBvh& bvh) : bvh_(bvh) {
+    if (boxes.empty()) return;
     Box3 bounds;
-    for (const Box3& box : boxes_) bounds = hull(bounds, box);
+    for (const Box3& box : boxes) bounds = hull(bounds, box);
     bvh_.frame_.center = bounds.center();
     const double reach = max_component(max(bounds.upper - bvh_.frame_.center, bvh_.frame_.center - bounds.lower));
     // A mesh that is a point is fine in any frame.
     bvh_.frame_.scale = reach > 0 ? std::ldexp(1.0, std::clamp(-1 - std::ilogb(reach), -1000, 1000)) : 1;
-    add_node({0, boxes_.size()}, 0);
+    items_.reserve(boxes.size());
+    for (const Box3& box : boxes) items_.push_back(item_of(box, static_cast<std::uint32_t>(items_.size())));
+  }
+
+  void build() {
+    if (!items_.empty()) add_node({0, items_.size()}, 0);
   }
 
  private:
+  // What is split together stands side by side.
+  struct Item {
+    FrameBox box;
+    Vec3f center;
+    std::uint32_t triangle;
+  };
   struct Range {
     std::size_t begin, end;
     std::size_t size() const { return end - begin; }
   };
   struct Part {
     Range range;
-    Box3 box;
+    FrameBox box;
   };
+
+  Item item_of(const Box3& box, std::uint32_t triangle) const {
+    const Box3 inner = bvh_.frame_.box_from_outside(box);
+    Item item{{}, Vec3f::all(0), triangle};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int a = static_cast<int>(axis);
+      item.box.minus_lower.at[axis] = -below(inner.lower[a]);
+      item.box.upper.at[axis] = above(inner.upper[a]);
+      item.center.at[axis] = 0.5f * item.box.lower(axis) + 0.5f * item.box.upper.at[axis];
+    }
+    return item;
+  }
+
+  std::span<const Item> items(const Range& range) const { return {items_.data() + range.begin, range.size()}; }
 
   Part part_of(const Range& range) const {
     Part part{range, {}};
-    for (std::size_t k = range.begin; k < range.end; ++k) part.box = hull(part.box, boxes_[order_[k]]);
+    for (const Item& item : items(range)) part.box.take(item.box);
     return part;
   }
 
@@ -109,10 +160,10 @@ class MeshBvh::Builder {
       parts[count++] = part_of({middle, whole.end});
     }
     for (std::size_t i = 0; i < width; ++i) {
-      Box3 box;
+      FrameBox box;
       Child child;
       if (i < count) {
-        box = bvh_.frame_.box_from_outside(parts[i].box);
+        box = parts[i].box;
         const Range& own = parts[i].range;
         child =
             own.size() <= bvh_.leaf_size_ ? Child{add_leaf(own) | Child::leaf_bit} : Child{add_node(own, depth + 1)};
@@ -120,8 +171,8 @@ class MeshBvh::Builder {
       Node& node = bvh_.nodes_[index];
       node.children[i] = child;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        node.ends[axis][0][i] = below(box.lower[static_cast<int>(axis)]);
-        node.ends[axis][1][i] = above(box.upper[static_cast<int>(axis)]);
+        node.ends[axis][0][i] = box.lower(axis);
+        node.ends[axis][1][i] = box.upper.at[axis];
       }
     }
     return static_cast<std::uint32_t>(index);
@@ -130,32 +181,39 @@ class MeshBvh::Builder {
   std::uint32_t add_leaf(const Range& range) {
     const std::size_t place = bvh_.order_.size();
     bvh_.order_.resize(place + bvh_.leaf_size_, none);
-    std::copy(order_.begin() + static_cast<std::ptrdiff_t>(range.begin),
-              order_.begin() + static_cast<std::ptrdiff_t>(range.end),
-              bvh_.order_.begin() + static_cast<std::ptrdiff_t>(place));
+    const auto own = items(range);
+    std::transform(own.begin(), own.end(), bvh_.order_.begin() + static_cast<std::ptrdiff_t>(place),
+                   [](const Item& item) { return item.triangle; });
     return static_cast<std::uint32_t>(place / bvh_.leaf_size_);
   }
 
   // Reorders a range into two parts, none of them empty.
   // @return where the second begins
   std::size_t split(const Range& range, int depth) {
-    Box3 centers;
-    for (std::size_t k = range.begin; k < range.end; ++k) centers = hull(centers, boxes_[order_[k]].center());
-    const Vec3 size = centers.size();
+    FrameBox centers;
+    for (const Item& item : items(range)) {
+      centers.upper.raise_to(item.center);
+      for (std::size_t i = 0; i < 3; ++i) {
+        centers.minus_lower.at[i] = std::max(centers.minus_lower.at[i], -item.center.at[i]);
+      }
+    }
     const std::size_t half = range.begin + range.size() / 2;
-    const Cut cut = depth < deepest_by_cost ? best_cut(range, centers) : Cut{};
-    const auto begin = order_.begin();
+    const Bins by(centers);
+    const Cut cut = depth < deepest_by_cost ? best_cut(range, by) : Cut{};
+    const auto begin = items_.begin();
     const auto at = [begin](std::size_t i) { return begin + static_cast<std::ptrdiff_t>(i); };
     if (cut.cost < Box3::inf) {
-      const auto middle = std::partition(at(range.begin), at(range.end), [&](std::uint32_t t) {
-        return bin_of(boxes_[t].center()[cut.axis], centers, cut.axis) <= cut.bin;
-      });
+      const auto middle = std::partition(at(range.begin), at(range.end),
+                                         [&](const Item& item) { return by.bins_of(item)[cut.axis] <= cut.last_bin; });
       return static_cast<std::size_t>(middle - begin);
     }
-    const int longest = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    std::nth_element(at(range.begin), at(half), at(range.end), [&](std::uint32_t a, std::uint32_t b) {
-      const double ca = boxes_[a].center()[longest], cb = boxes_[b].center()[longest];
-      return ca != cb ? ca < cb : a < b;
+    std::size_t longest = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis) {
+      if (centers.size(axis) > centers.size(longest)) longest = axis;
+    }
+    std::nth_element(at(range.begin), at(half), at(range.end), [&](const Item& a, const Item& b) {
+      const float ca = a.center.at[longest], cb = b.center.at[longest];
+      return ca != cb ? ca < cb : a.triangle < b.triangle;
     });
     return half;
   }
@@ -163,51 +221,77 @@ class MeshBvh::Builder {
   static constexpr std::size_t bins = 16;
   struct Cut {
     double cost = Box3::inf;
-    int axis = 0;
-    std::size_t bin = 0;  // the last of the first part
+    std::size_t axis = 0;
+    std::int32_t last_bin = 0;  // of the first part
   };
 
-  static std::size_t bin_of(double center, const Box3& centers, int axis) {
-    const double share = (center - centers.lower[axis]) / (centers.upper[axis] - centers.lower[axis]);
-    return std::min(static_cast<std::size_t>(share * bins), bins - 1);
-  }
+  // The bins of centers, by axis; all in the first one along an axis on which they do not differ.
+  class Bins {
+   public:
+    explicit Bins(const FrameBox& centers) : minus_lower_(centers.minus_lower), per_unit_(Vec3f::all(0)) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float rate = static_cast<float>(bins) / centers.size(axis);
+        if (std::isfinite(rate)) per_unit_.at[axis] = rate;
+      }
+    }
+    bool tells(std::size_t axis) const { return per_unit_.at[axis] > 0; }
+    std::array<std::int32_t, 3> bins_of(const Item& item) const {
+      constexpr auto last = static_cast<std::int32_t>(bins - 1);
+      std::array<std::int32_t, 3> result;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float share = (item.center.at[axis] + minus_lower_.at[axis]) * per_unit_.at[axis];
+        result[axis] = share > 0 ? std::min(static_cast<std::int32_t>(share), last) : 0;
+      }
+      return result;
+    }
 
-  Cut best_cut(const Range& range, const Box3& centers) const {
+   private:
+    Vec3f minus_lower_, per_unit_;
+  };
+
+  struct Bin {
+    FrameBox box;
+    std::size_t count = 0;
+
+    void take(const Bin& other) {
+      box.take(other.box);
+      count += other.count;
+    }
+    double cost() const { return static_cast<double>(box.surface_area()) * static_cast<double>(count); }
+  };
+
+  Cut best_cut(const Range& range, const Bins& by) const {
+    std::array<std::array<Bin, bins>, 3> binned;
+    for (const Item& item : items(range)) {
+      const auto own = by.bins_of(item);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        Bin& bin = binned[axis][static_cast<std::size_t>(own[axis])];
+        bin.box.take(item.box);
+        ++bin.count;
+      }
+    }
     Cut best;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double extent = centers.upper[axis] - centers.lower[axis];
-      if (!(extent > 0) || !std::isfinite(bins / extent)) continue;
-      std::array<Box3, bins> boxes;
-      std::array<std::size_t, bins> counts{};
-      for (std::size_t k = range.begin; k < range.end; ++k) {
-        const Box3& box = boxes_[order_[k]];
-        const std::size_t bin = bin_of(box.center()[axis], centers, axis);
-        boxes[bin] = hull(boxes[bin], box);
-        ++counts[bin];
-      }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!by.tells(axis)) continue;
       std::array<double, bins> behind{};  // cost of all bins after this one
-      Box3 box;
-      std::size_t count = 0;
+      Bin part;
       for (std::size_t bin = bins - 1; bin > 0; --bin) {
-        box = hull(box, boxes[bin]);
-        count += counts[bin];
-        behind[bin - 1] = box.surface_area() * static_cast<double>(count);
+        part.take(binned[axis][bin]);
+        behind[bin - 1] = part.cost();
       }
-      box = Box3::empty();
-      count = 0;
+      part = {};
       for (std::size_t bin = 0; bin + 1 < bins; ++bin) {
-        box = hull(box, boxes[bin]);
-        count += counts[bin];
-        const double cost = box.surface_area() * static_cast<double>(count) + behind[bin];
-        if (count > 0 && count < range.size() && cost < best.cost) best = {cost, axis, bin};
+        part.take(binned[axis][bin]);
+        const double cost = part.cost() + behind[bin];
+        if (part.count > 0 && part.count < range.size() && cost < best.cost)
+          best = {cost, axis, static_cast<std::int32_t>(bin)};
       }
     }
     return best;
   }
 
   MeshBvh& bvh_;
-  std::span<const Box3> boxes_;
-  std::vector<std::uint32_t> order_;
+  std::vector<Item> items_;
 };
 
 MeshBvh::MeshBvh(const TriangleMesh& mesh) : leaf_size_(width) {
