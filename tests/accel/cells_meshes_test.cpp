@@ -1,4 +1,4 @@
-#include <cmath>
+#include <utility>
 
 #include "accel/cells_checks.h"
 #include "support/meshes.h"
@@ -43,6 +43,28 @@ TEST(Cells, FollowDenseMeshesFromCrossingToCrossing) {
     for (const char* spec : {"cells", "cells:quality=fast"}) expect_same_answers(tree, spec, 400);
     expect_streams_say_what_single_rays_say(tree, 4000);
   }
+}
+
+// Beside one of two meshes that intersect, nobody asks for the other.
+TEST(Cells, AskMeshesWhenTheyMatter) {
+  SceneBuilder b;
+  const auto ball = [&](const Vec3& place) {
+    TriangleMesh mesh = meshes::star(4, [](const Vec3&) { return 1.0; });
+    mesh.winds_once = true;
+    return b.translate(place, b.primitive("mesh", {meshes::share(std::move(mesh)), false}));
+  };
+  const CsgTree tree = b.tree(b.intersect({ball({0, 0, 0}), ball({0.02, 0.01, 0.03})}));
+  const auto cells = build_accelerator("cells:depth=1", tree);
+  ASSERT_TRUE(cells.ok());
+  const auto context = (*cells)->make_context();
+  const TraversalCounters& counters = context->statistics[RayKind::primary];
+  Draw draw(64);
+  for (int i = 0; i < 100; ++i) {
+    const double x = draw.real(0.8, 0.9) * (i % 2 == 0 ? 1 : -1), y = draw.real(0.8, 0.9) * (i % 4 < 2 ? 1 : -1);
+    EXPECT_FALSE((*cells)->first_hit({{{x, y, 5}, {0, 0, -1}}}, *context).found());
+  }
+  EXPECT_GE(counters.cells_visited, 100u);
+  EXPECT_EQ(counters.primitive_tests, counters.cells_visited);
 }
 
 // The same mesh twice with faces in common, and beside a box with which it shares some.
