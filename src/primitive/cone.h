@@ -49,6 +49,7 @@ class Cone {
     return std::max(r1 * across + q_.low * n.z, r2 * across + q_.high * n.z);
   }
 
+  const RevolvedQuadric& quadric() const { return q_; }
   /// Faces: RevolvedQuadric::Face.
   void spans(const LocalRay& ray, Spans& out) const { q_.spans(ray, out); }
 

@@ -50,6 +50,7 @@ class Hyperboloid {
   /// The convex hull is that of the caps.
   double support(const Vec3& n) const { return r * std::sqrt(n.x * n.x + n.y * n.y) + std::fabs(n.z) * q_.high; }
 
+  const RevolvedQuadric& quadric() const { return q_; }
   /// Faces: RevolvedQuadric::Face.
   void spans(const LocalRay& ray, Spans& out) const { q_.spans(ray, out); }
 

@@ -43,6 +43,7 @@ class Paraboloid {
     return r * across + h * n.z;
   }
 
+  const RevolvedQuadric& quadric() const { return q_; }
   /// Faces: RevolvedQuadric::Face; the apex stands in for the bottom.
   void spans(const LocalRay& ray, Spans& out) const { q_.spans(ray, out); }
 

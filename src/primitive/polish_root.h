@@ -16,7 +16,8 @@ namespace tenon {
 /// ±2 b β as soon as 2 |b| β > error + |a| (|s| + β)². Since (|s| + β)² <= 2 s² + 2 β², and with |a| β <= |b| / 8,
 /// β = (error + 2 |a| s²) / (1.75 |b|) will do.
 ///
-/// @param quadric  has expand(ray, t, reach) and error_at(expansion, away), as RevolvedQuadric
+/// @param quadric  has expand(ray, t, reach) and error_at(expansion, away), as RevolvedQuadric. Where it says that the
+///                 root is settled, if it says so, t stays where it is, in the interval.
 template <class Quadric>
 void polish_root(const Quadric& quadric, const LocalRay& ray, BoundedRoot& root) {
   const double away = std::max(root.hi - root.t, root.t - root.lo);
@@ -28,9 +29,11 @@ void polish_root(const Quadric& quadric, const LocalRay& ray, BoundedRoot& root)
   const double t = root.t + step;
   if (!(std::fabs(e.a) * bound <= slope_here / 8) || !(std::fabs(step) <= away) || !(bound < away)) return;
   const double total = bound + gamma(3) * std::fabs(t);
-  root.t = t;
-  root.lo = std::max(root.lo, t - total);
-  root.hi = std::min(root.hi, t + total);
+  bool is_settled = false;
+  if constexpr (requires { quadric.is_settled(e); }) is_settled = quadric.is_settled(e);
+  if (!is_settled) root.t = t;
+  root.lo = std::max(root.lo, std::min(t - total, root.t));
+  root.hi = std::min(root.hi, std::max(t + total, root.t));
 }
 
 }  // namespace tenon

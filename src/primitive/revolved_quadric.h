@@ -43,10 +43,21 @@ struct RevolvedQuadric {
   Expansion expand(const LocalRay& ray, double t, double reach) const;
   /// Bound on |q* - q| within `away` of the expansion point.
   double error_at(const Expansion& e, double away) const;
+  /// Whether a root at the expansion point is not moved any more (polish_root). Towards a tip roots gain much by it;
+  /// elsewhere they come to no more than a few roundings, and without it they can be found in a vector.
+  bool is_settled(const Expansion& e) const {
+    return e.place.x * e.place.x + e.place.y * e.place.y > settled_square * (greatest_radius * greatest_radius);
+  }
+  static constexpr double settled_square = 0x1p-12;
 
  private:
-  bool find_window(const LocalRay& ray, const Chord& chord, double& begin, double& end) const;
-  QuadraticSet solve(const LocalRay& ray, double begin, double end) const;
+  // The part of a line that matters, and the place on it at which q is expanded.
+  struct Window {
+    double begin = 0, end = 0;
+    double at = 0;
+  };
+  bool find_window(const LocalRay& ray, const Chord& chord, Window& window) const;
+  QuadraticSet solve(const LocalRay& ray, const Window& window) const;
   QuadraticSet solve_from_surface(const LocalRay& ray) const;
 };
 
@@ -85,10 +96,9 @@ inline double RevolvedQuadric::error_at(const Expansion& e, double away) const {
 }
 
 // Where the line is near enough to matter: between the caps, and inside a cylinder around the whole side. There no term
-// of q exceeds the square of the greatest radius by much, so expanding in the middle of it loses nothing.
-inline bool RevolvedQuadric::find_window(const LocalRay& ray, const Chord& chord, double& begin, double& end) const {
-  begin = chord.enter.lo;
-  end = chord.leave.hi;
+// of q exceeds the square of the greatest radius by much, so expanding at the place nearest to the axis between the
+// caps, which does not depend on the errors, loses nothing.
+inline bool RevolvedQuadric::find_window(const LocalRay& ray, const Chord& chord, Window& window) const {
   const Vec3 &o = ray.origin, &d = ray.direction;
   const double a = d.x * d.x + d.y * d.y;
   const double nearest = -(o.x * d.x + o.y * d.y) / a;
@@ -100,19 +110,23 @@ inline bool RevolvedQuadric::find_window(const LocalRay& ray, const Chord& chord
   const double square = radius * radius - (x * x + y * y);
   if (square < 0) return false;
   const double half = std::sqrt(square / a);
+  window.begin = chord.enter.lo;
+  window.end = chord.leave.hi;
   // A line along the axis has no nearest point, or none that can be computed.
   if (std::isfinite(half) && std::isfinite(nearest)) {
-    begin = std::max(begin, nearest - half);
-    end = std::min(end, nearest + half);
+    window.begin = std::max(window.begin, nearest - half);
+    window.end = std::min(window.end, nearest + half);
   }
-  return begin <= end && std::isfinite(begin) && std::isfinite(end);
+  const double not_before = nearest > chord.enter.t ? nearest : chord.enter.t;
+  window.at = not_before > chord.leave.t ? chord.leave.t : not_before;
+  return window.begin <= window.end && std::isfinite(window.begin) && std::isfinite(window.end);
 }
 
 // Two roots too near to be told apart are solved again around their own place, as long as that narrows them down: at
 // the tip of a cone, where all terms vanish, a cluster of width sqrt(u) shrinks to u.
-inline QuadraticSet RevolvedQuadric::solve(const LocalRay& ray, double begin, double end) const {
+inline QuadraticSet RevolvedQuadric::solve(const LocalRay& ray, const Window& window) const {
   // A little beyond the window, so that a cluster at its very end (a tip) lies within.
-  double at = 0.5 * begin + 0.5 * end, away = 0.53125 * (end - begin);
+  double at = window.at, away = 1.0625 * std::max(window.end - at, at - window.begin);
   for (;;) {
     const Expansion e = expand(ray, at, std::max(std::fabs(at - away), std::fabs(at + away)));
     QuadraticSet set = solve_quadratic(e.a, e.b, e.c, error_at(e, away));
@@ -151,18 +165,18 @@ inline void RevolvedQuadric::spans(const LocalRay& ray, Spans& out) const {
   using Shape = QuadraticSet::Shape;
   Chord slab;
   if (!clip_slab(ray, 2, low, high, bottom, top, slab)) return;
-  double begin = 0, end = 0;
-  if (!find_window(ray, slab, begin, end)) return;
+  Window window;
+  if (!find_window(ray, slab, window)) return;
 
   const bool from_side = ray.on_face == side;
-  QuadraticSet set = from_side ? solve_from_surface(ray) : solve(ray, begin, end);
+  QuadraticSet set = from_side ? solve_from_surface(ray) : solve(ray, window);
   if (set.shape == Shape::none) return;
   if (set.shape == Shape::all) {
     emit_chord(slab, out);
     return;
   }
   for (BoundedRoot* root : {&set.first, &set.second}) {
-    if (root->lo <= end && root->hi >= begin) polish_root(*this, ray, *root);
+    if (root->lo <= window.end && root->hi >= window.begin) polish_root(*this, ray, *root);
   }
   // Of the two roots of a ray that starts on the side, one is the start.
   const auto end_of = [from_side](const BoundedRoot& root) {

@@ -127,6 +127,45 @@ TEST(Cells, RaysFromTaperedSolidsAreLikeOthers) {
             1.2 * static_cast<double>(lifted->statistics.total().primitive_tests));
 }
 
+// What is met of a solid of revolution is told without its spans(): by rays that are steeper than its side, too, and by
+// those that start on it.
+TEST(Cells, TellQuadricsOfRevolutionByThemselves) {
+  Draw draw(40);
+  for (int i = 0; i < 8; ++i) {
+    SCOPED_TRACE(i);
+    SceneBuilder b;
+    const SceneNodeId solids[] = {b.primitive("cone", {1.0, 0.8, 0.2, false}),
+                                  b.primitive("cone", {1.0, 0.0, 1.7, true}),
+                                  b.primitive("hyperboloid", {1.0, 0.8, 0.3}), b.primitive("paraboloid", {1.0, 0.6})};
+    const Vec3 turn = i % 2 == 0 ? Vec3{0, 0, 0} : Vec3{20.0 * i, 50, 0};
+    const CsgTree tree = b.tree(b.rotate(turn, b.transform(Affine3::scale({1, 1, draw.real(0.5, 2)}), solids[i / 2])));
+    expect_same_answers(tree, "cells", 400);
+    expect_streams_say_what_single_rays_say(tree, 4000);
+    const auto none = build_accelerator("none", tree), judged = build_accelerator("cells", tree);
+    const auto context = (*none)->make_context(), other = (*judged)->make_context();
+    const Box3 box = battery::extent(tree);
+    int met = 0;
+    for (int k = 0; k < 3000; ++k) {
+      const Vec3 at = draw.in_box(box), from = at + 10 * draw.direction();
+      const RayQuery query{{from, at - from}};
+      const Hit start = (*none)->first_hit(query, *context);
+      ASSERT_TRUE(battery::same_hit(start, (*judged)->first_hit(query, *other)));
+      if (!start.found()) continue;
+      RayQuery inward{{start.point, draw.direction()}};
+      if (dot(inward.ray.direction, start.normal) > 0) inward.ray.direction = -inward.ray.direction;
+      inward.from = &start;
+      const Hit hit = (*none)->first_hit(inward, *context), told = (*judged)->first_hit(inward, *other);
+      ASSERT_TRUE(battery::same_hit(hit, told)) << battery::describe(hit) << " against " << battery::describe(told);
+      met += 1 + static_cast<int>(hit.found());
+    }
+    EXPECT_GT(met, 3000);
+    // A line that meets the hyperboloid twice within the cell is left to the classifier.
+    const TraversalCounters counters = other->statistics.total();
+    const double most = i / 2 == 2 ? 0.5 : 0.01;
+    EXPECT_LT(static_cast<double>(counters.primitive_tests - counters.cells_visited), most * met);
+  }
+}
+
 TEST(Cells, FirstBoundariesAndOcclusionAreThoseOfFirstHits) {
   for (const gallery::Scene& scene : gallery::scenes) {
     SCOPED_TRACE(scene.name);

@@ -87,7 +87,7 @@ TEST(SameBits, OnEveryCompilerAndMachine) {
       }
     }
   }
-  EXPECT_EQ(hash, 15632000572798168049u);
+  EXPECT_EQ(hash, 17878900497677409039u);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ class BatchAnswers {
   using D = RayBatch::D;
   static constexpr std::size_t double_lanes = RayBatch::double_lanes;
   static constexpr std::uint32_t all_lanes = (1U << double_lanes) - 1;
-  static constexpr std::size_t kinds = static_cast<std::size_t>(ShapeKind::cylinder) + 1;
+  static constexpr std::size_t kinds = static_cast<std::size_t>(ShapeKind::revolved) + 1;
   // Where fewer share a leaf, or a cell, it is not worth a vector of their own (by trial on the bench).
   static constexpr int least_neighbours = 3;
 
@@ -247,7 +247,7 @@ class BatchAnswers {
       end = TorusCrossing(d, Rays(take), take_shapes(cells_.shapes.tori), about, enters);
     } else {
       end = FindCrossing(d, Rays(take), cells_.shapes, kind, take_shapes, -1, cells_.scale.reach, take(rays_.length),
-                         enters);
+                         enters, about);
     }
     const auto sure = hn::AndNot(end.unsure, hn::Le(hn::Abs(hn::Sub(end.t, about)), take(rays_.near)));
     const std::uint32_t in_time = RayBatch::Bits(hn::Lt(end.t, take(rays_.end)));

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "accel/cells/cell_scale.h"
 #include "csg/csg_tree.h"
+#include "primitive/revolved_quadric.h"
 #include "tenon/math/rounding.h"
 
 namespace tenon::cells {
@@ -40,6 +42,18 @@ class Certainty {
   /// A discriminant D of q, known to within `error`, has roots within error / sqrt(D); half of that is left for
   /// the rounding of t. Where D is below minus this there are certainly none: D >= -|a| error has.
   double graze(double error) const { return std::max(square(2 * error / scale_.certain), 2 * square(most_) * error); }
+
+  /// graze() for a solid of revolution, by the bound of RevolvedQuadric::error_at over its window. There |x, y| is at
+  /// most 3.4 R and w at most 3.2 R (what is expanded at one end of the window reaches to the other, and a sixteenth
+  /// beyond), so that all terms together are at most 22 R², and twice their root 9.4 R; |offset| + |slope z| is at most
+  /// 2 R. None where the errors are not small against the solid.
+  std::optional<double> graze_of(const RevolvedQuadric& q) const {
+    const double R = q.greatest_radius, e = std::hypot(place_.x, place_.y), linear = std::fabs(q.linear) * place_.z;
+    const double w = std::fabs(q.slope) * place_.z + gamma(5) * 2 * R;
+    if (!(e < R / 0x1p10) || !(w < R / 0x1p10) || !(linear < R * R / 0x1p10)) return std::nullopt;
+    const double error = (9.4 * R + e) * e + (9.4 * R + w) * w + linear + gamma(10) * 22 * R * R;
+    return (1 + square(q.slope)) * graze(error);
+  }
 
   /// A plane that is met at slope s is crossed within error / |s|.
   double least_slope(double error) const { return 2 * error / scale_.certain; }

@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include <limits>
+
 #include "accel/cells/crossing-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -33,8 +35,13 @@ HWY_INLINE ChordLanes<D> FindChord(D d, const RayLanes<D>& ray, const PlacedShap
   };
   const auto all = hn::Eq(length, length);
   ChordLanes<D> chord;
-  chord.enter = FindCrossing(d, ray, shapes, shape.kind(), take, on_face, reach, length, all);
-  chord.leave = FindCrossing(d, ray, shapes, shape.kind(), take, on_face, reach, length, hn::Not(all));
+  // Of two chords none is told.
+  const auto nowhere = hn::Set(d, std::numeric_limits<double>::quiet_NaN());
+  const auto find = [&](hn::Mask<D> enters) {
+    return FindCrossing(d, ray, shapes, shape.kind(), take, on_face, reach, length, enters, nowhere);
+  };
+  chord.enter = find(all);
+  chord.leave = find(hn::Not(all));
   // Ends that lie so near to each other that either may come first.
   const auto width = hn::Sub(chord.leave.t, chord.enter.t);
   const auto least = hn::Mul(hn::Set(d, 4.0), ray.resolution);

@@ -349,7 +349,7 @@ class ExactCell {
       return TorusCrossing(One(), ray_.lanes(), take(cells_.shapes.tori), answer.t, enters);
     }
     return FindCrossing(One(), ray_.lanes(), cells_.shapes, shape.kind(), take, on_face, cells_.scale.reach,
-                        ray_.length, enters);
+                        ray_.length, enters, answer.t);
   }
 
   HWY_NOINLINE bool FinishBySpans(int on_face, CellAnswer& answer) {

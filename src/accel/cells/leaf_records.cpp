@@ -29,8 +29,6 @@ struct Profile {
     const double m = 0.5 * (low + high), half = 0.5 * (high - low);
     return {-half, half, alpha + m * (beta + m * gamma), beta + 2 * m * gamma, gamma, greatest_radius};
   }
-  // How fast the square of the radius changes between the caps, at most.
-  double steepness() const { return std::max(std::fabs(beta + 2 * gamma * low), std::fabs(beta + 2 * gamma * high)); }
 };
 
 Profile profile_of(const Cylinder& c) {
@@ -159,9 +157,15 @@ class Recorder {
     if (!(e < r / 0x1p10)) return {RecordKind::general, 0};
     return add_revolved(leaf, certainty, profile_of(cylinder), certainty.graze(e * (2 * r + e) + gamma(12) * r * r));
   }
-  RecordRef add(const Leaf& leaf, const Cone& cone) { return add_revolved_quadric(leaf, profile_of(cone)); }
-  RecordRef add(const Leaf& leaf, const Hyperboloid& p) { return add_revolved_quadric(leaf, profile_of(p)); }
-  RecordRef add(const Leaf& leaf, const Paraboloid& p) { return add_revolved_quadric(leaf, profile_of(p)); }
+  RecordRef add(const Leaf& leaf, const Cone& cone) {
+    return add_revolved_quadric(leaf, cone.quadric(), profile_of(cone));
+  }
+  RecordRef add(const Leaf& leaf, const Hyperboloid& p) {
+    return add_revolved_quadric(leaf, p.quadric(), profile_of(p));
+  }
+  RecordRef add(const Leaf& leaf, const Paraboloid& p) {
+    return add_revolved_quadric(leaf, p.quadric(), profile_of(p));
+  }
 
   // A line this steep moves aside by at most r / 8 along three heights: along one that its part between the caps has,
   // and two that its nearest point may lie off. Its component along the axis is then at least 3/4 of its length.
@@ -169,15 +173,11 @@ class Recorder {
     return square(std::min(r / (8 * 4 * h), 0.5) * certainty.least_stretch());
   }
 
-  // The bound of RevolvedQuadric::error_at over its window: there no square exceeds (2.2 R)² and so no sum of the terms
-  // 16 R²; a place that is off by e moves them by (2 * 2.2 R + e) e across, and by twice the steepness along the axis.
-  RecordRef add_revolved_quadric(const Leaf& leaf, const Profile& profile) {
+  RecordRef add_revolved_quadric(const Leaf& leaf, const RevolvedQuadric& quadric, const Profile& profile) {
     const Certainty certainty(leaf, scale_);
-    const double R = profile.greatest_radius, e = std::hypot(certainty.place().x, certainty.place().y);
-    const double along = 2 * profile.steepness() * certainty.place().z + gamma(5) * 8 * R * R;
-    const double error = (4.5 * R + e) * e + along + gamma(10) * 16 * R * R;
-    if (!(e < R / 0x1p10) || !(along < R * R / 0x1p10)) return {RecordKind::general, 0};
-    return add_revolved(leaf, certainty, profile, (1 + profile.gamma) * certainty.graze(error));
+    const std::optional<double> graze = certainty.graze_of(quadric);
+    if (!graze) return {RecordKind::general, 0};
+    return add_revolved(leaf, certainty, profile, *graze);
   }
 
   RecordRef add_revolved(const Leaf& leaf, const Certainty& certainty, const Profile& profile, double graze) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "accel/cells/certainty.h"
 #include "primitive/lists.h"
@@ -104,6 +105,23 @@ class Placer {
     return {ShapeKind::cylinder, shapes_.cylinders.size() - 1};
   }
 
+  ShapeRef add(const Leaf& leaf, const Cone& cone) { return add_revolved(leaf, cone.quadric()); }
+  ShapeRef add(const Leaf& leaf, const Hyperboloid& p) { return add_revolved(leaf, p.quadric()); }
+  ShapeRef add(const Leaf& leaf, const Paraboloid& p) { return add_revolved(leaf, p.quadric()); }
+
+  ShapeRef add_revolved(const Leaf& leaf, const RevolvedQuadric& q) {
+    const Certainty certainty(leaf, scale_);
+    const std::optional<double> graze = certainty.graze_of(q);
+    if (!graze) return {ShapeKind::general, 0};
+    const Placement& p = leaf.placement;
+    shapes_.revolved.push_back({array_of(p.world_center()), array_of(p.world_origin()),
+                                rows_of(p.local_from_world_linear()), q.offset, q.slope, q.linear, q.constant, q.low,
+                                q.high, *graze, certainty.least_slope(certainty.place().z),
+                                RevolvedQuadric::settled_square * square(q.greatest_radius),
+                                certainty.least_certain_quadratic(q.greatest_radius, q.slope, q.linear)});
+    return {ShapeKind::revolved, shapes_.revolved.size() - 1};
+  }
+
   // What is known of a crossing is known within 4 resolutions, which along the ray have to be a small part of the steps
   // of SettledTorusRoot (an eighth of one), and of the gaps between crossings: where the slope is at least
   // relative_slope 2 r |d|, and the second derivative at most 16 |d|² (|w'| <= 2 |d|, |w w''| <= 1.5 |d|², |z'| <= |d|
@@ -139,7 +157,7 @@ std::size_t PlacedShapes::memory_bytes() const {
   return of_leaf.size() * sizeof(ShapeRef) + upright_spheres.size() * sizeof(UprightSphere) +
          spheres.size() * sizeof(PlacedSphere) + upright_boxes.size() * sizeof(UprightBox) +
          boxes.size() * sizeof(PlacedBox) + cylinders.size() * sizeof(PlacedCylinder) +
-         tori.size() * sizeof(PlacedTorus);
+         revolved.size() * sizeof(PlacedRevolved) + tori.size() * sizeof(PlacedTorus);
 }
 
 }  // namespace tenon::cells

@@ -13,8 +13,9 @@ namespace tenon::cells {
 /// The kinds of leaf whose chord is found without error bounds, by the same operations in the same order as spans(), so
 /// that t is the same double. Every other leaf is `general`: spans() itself.
 ///
-/// A torus has no chord, for its crossings may be four; but each of them is found from its neighbourhood.
-enum class ShapeKind : std::uint8_t { general, torus, sphere, upright_sphere, box, upright_box, cylinder };
+/// A torus has no chord, for its crossings may be four; but each of them is found from its neighbourhood. Nor has a
+/// revolved quadric along a line that is steeper than its side; there, too, a crossing is.
+enum class ShapeKind : std::uint8_t { general, torus, sphere, upright_sphere, box, upright_box, cylinder, revolved };
 
 inline bool has_chord(ShapeKind kind) {
   return kind > ShapeKind::torus;
@@ -81,6 +82,21 @@ struct alignas(64) PlacedCylinder {
   double start;
 };
 
+/// RevolvedQuadric.
+struct alignas(64) PlacedRevolved {
+  std::array<double, 3> center;
+  std::array<double, 3> origin;
+  std::array<double, 9> map;
+  double offset, slope, linear, constant;
+  double low, high;
+  double graze;
+  double least_slope;  ///< of the caps
+  double settled;      ///< x² + y² of a root above which it is settled (RevolvedQuadric::is_settled)
+  /// A ray that starts on the side is certain of where it meets it again if a, the coefficient of t², is larger than
+  /// this, over |direction|².
+  double start;
+};
+
 struct alignas(64) PlacedTorus {
   std::array<double, 3> center;
   std::array<double, 3> origin;
@@ -96,6 +112,7 @@ struct PlacedShapes {
   std::vector<UprightBox> upright_boxes;
   std::vector<PlacedBox> boxes;
   std::vector<PlacedCylinder> cylinders;
+  std::vector<PlacedRevolved> revolved;
   std::vector<PlacedTorus> tori;
 
   static PlacedShapes of(const CsgTree& tree, const CellScale& scale);
