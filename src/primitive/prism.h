@@ -28,7 +28,7 @@ class Prism {
   static constexpr bool bounded = true;
   static constexpr double relative_cost = 7;
   /// The deeper the hierarchy over the edges, the longer. By trial on OpenSCAD's surface_image.
-  double own_cost() const { return relative_cost + std::log2(1 + static_cast<double>(edges_.edges().size()) / 16); }
+  double own_cost() const { return relative_cost + std::log2(1 + static_cast<double>(edges().size()) / 16); }
   static constexpr auto fields() {
     return std::tuple{
         Field{"outline", Unit::length, &Prism::outline, "closed loops of corners [x, y] or [x, y, bulge]"},
@@ -42,6 +42,7 @@ class Prism {
   void prepare() { edges_ = check().empty() ? OutlineEdges(outline) : OutlineEdges(); }
   std::string check() const;
 
+  const std::vector<OutlineEdge>& edges() const { return edges_.edges(); }
   double low() const { return center ? -0.5 * h : 0; }
   double high() const { return center ? 0.5 * h : h; }
 
@@ -54,7 +55,7 @@ class Prism {
   static double window_share() { return 0.15; }
   std::optional<Crossing> crossing_near(const LocalRay& ray, double t, double near, bool entering) const;
   Region classify(const LocalBox& box) const;
-  std::uint32_t face_count() const { return walls + 2 * static_cast<std::uint32_t>(edges_.edges().size()); }
+  std::uint32_t face_count() const { return walls + 2 * static_cast<std::uint32_t>(edges().size()); }
   Vec3 normal(const Vec3& point, std::uint32_t face) const;
   PlanarPart planes_within(const LocalBox& box, std::vector<Plane>& planes) const;
   bool walls_within(const LocalBox& box, std::size_t most, SweptPart& part) const;

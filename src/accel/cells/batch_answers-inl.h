@@ -49,7 +49,7 @@ class BatchAnswers {
   using D = RayBatch::D;
   static constexpr std::size_t double_lanes = RayBatch::double_lanes;
   static constexpr std::uint32_t all_lanes = (1U << double_lanes) - 1;
-  static constexpr std::size_t kinds = static_cast<std::size_t>(ShapeKind::revolved) + 1;
+  static constexpr std::size_t kinds = static_cast<std::size_t>(ShapeKind::convex) + 1;
   // Where fewer share a leaf, or a cell, it is not worth a vector of their own (by trial on the bench).
   static constexpr int least_neighbours = 3;
 
@@ -98,7 +98,7 @@ class BatchAnswers {
         left &= ~same;
         const ShapeRef shape = cells_.shapes.of_leaf[found_.leaf(first).get()];
         if (std::popcount(same) < least_neighbours || shape.kind() == ShapeKind::general) {
-          rest[static_cast<std::size_t>(shape.kind())] |= std::uint64_t{same} << at;
+          if (!has_faces(shape.kind())) rest[static_cast<std::size_t>(shape.kind())] |= std::uint64_t{same} << at;
         } else {
           finished |= FinishNeighbours(at, shape, same, begin, sink);
         }

@@ -11,7 +11,7 @@
 
 #include <limits>
 
-#include "accel/cells/crossing-inl.h"
+#include "accel/cells/find_crossing-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {

@@ -192,7 +192,7 @@ class ExactCell {
     const LeafId leaf = answer.surface.leaf;
     const int on_face = start_face(*ray_.query, leaf);
     const ShapeRef shape = cells_.shapes.of_leaf[leaf.get()];
-    if (has_chord(shape.kind()) || (shape.kind() == ShapeKind::torus && on_face < 0)) {
+    if (shape.kind() != ShapeKind::general && (shape.kind() != ShapeKind::torus || on_face < 0)) {
       const CrossingLanes<One> end = OneCrossing(shape, on_face, answer);
       if (!end.unsure && std::fabs(end.t - answer.t) <= ray_.near) {
         answer.t = end.t;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "accel/cells/certainty.h"
 #include "primitive/lists.h"
@@ -122,6 +123,53 @@ class Placer {
     return {ShapeKind::revolved, shapes_.revolved.size() - 1};
   }
 
+  // The error of a plane is that of PlanesRecorder.
+  ShapeRef add(const Leaf& leaf, const ConvexPolyhedron& solid) {
+    const Certainty certainty(leaf, scale_);
+    const Placement& p = leaf.placement;
+    const std::size_t first = shapes_.planes.size();
+    for (const Plane& plane : solid.planes) {
+      const Vec3& n = plane.normal;
+      const double error = dot(abs(n), certainty.place()) + gamma(8) * std::fabs(plane.d);
+      shapes_.planes.push_back({{n.x, n.y, n.z, plane.d}, certainty.least_slope(error)});
+    }
+    shapes_.convex.push_back({array_of(p.world_center()), array_of(p.world_origin()),
+                              rows_of(p.local_from_world_linear()), static_cast<std::uint32_t>(first),
+                              static_cast<std::uint32_t>(solid.planes.size())});
+    return {ShapeKind::convex, shapes_.convex.size() - 1};
+  }
+
+  // Where a line crosses a wall further than `margin` from its ends, spans() is sure that it does
+  // (Prism::Line::side_of): at d from an end of it, whose normal of length 1 is n, the line passes that end at d
+  // |n·direction|, which is known to within twice the error of place times the stretch of the map, for a direction of
+  // length 1. By least_across, 2 e / certain, that is less as soon as d exceeds certain times the stretch.
+  ShapeRef add(const Leaf& leaf, const Prism& prism) {
+    const std::vector<OutlineEdge>& edges = prism.edges();
+    // More of them take longer here than from their hierarchy (crossing_near).
+    constexpr std::size_t most_walls = 32;
+    if (prism.scale != 1 || edges.size() > most_walls) return {ShapeKind::general, 0};
+    const Certainty certainty(leaf, scale_);
+    const Placement& p = leaf.placement;
+    const std::size_t first = shapes_.walls.size();
+    double reach = 0;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const OutlineEdge& edge = edges[i];
+      const Vec2 w = edge.chord();
+      reach = std::max(reach, length(edge.from) + length(w));
+      // One of no length is none.
+      if (length(w) == 0) continue;
+      shapes_.walls.push_back({edge.from, w, edge.is_arc() ? 0 : length(w), edge.lower, edge.upper,
+                               Prism::walls + face_of_edge(static_cast<std::uint32_t>(i), false, true)});
+    }
+    const double e = std::hypot(certainty.place().x, certainty.place().y) + gamma(8) * reach;
+    shapes_.prisms.push_back({array_of(p.world_center()), array_of(p.world_origin()),
+                              rows_of(p.local_from_world_linear()), prism.low(), prism.high(),
+                              certainty.least_slope(certainty.place().z), certainty.least_slope(2 * e),
+                              8 * (certainty.most_stretch() * scale_.resolution + e), static_cast<std::uint32_t>(first),
+                              static_cast<std::uint32_t>(shapes_.walls.size() - first)});
+    return {ShapeKind::prism, shapes_.prisms.size() - 1};
+  }
+
   // What is known of a crossing is known within 4 resolutions, which along the ray have to be a small part of the steps
   // of SettledTorusRoot (an eighth of one), and of the gaps between crossings: where the slope is at least
   // relative_slope 2 r |d|, and the second derivative at most 16 |d|² (|w'| <= 2 |d|, |w w''| <= 1.5 |d|², |z'| <= |d|
@@ -154,10 +202,9 @@ PlacedShapes PlacedShapes::of(const CsgTree& tree, const CellScale& scale) {
 }
 
 std::size_t PlacedShapes::memory_bytes() const {
-  return of_leaf.size() * sizeof(ShapeRef) + upright_spheres.size() * sizeof(UprightSphere) +
-         spheres.size() * sizeof(PlacedSphere) + upright_boxes.size() * sizeof(UprightBox) +
-         boxes.size() * sizeof(PlacedBox) + cylinders.size() * sizeof(PlacedCylinder) +
-         revolved.size() * sizeof(PlacedRevolved) + tori.size() * sizeof(PlacedTorus);
+  const auto size_of = [](const auto&... lists) { return (std::span(lists).size_bytes() + ...); };
+  return size_of(of_leaf, upright_spheres, spheres, upright_boxes, boxes, cylinders, revolved, convex, planes, prisms,
+                 walls, tori);
 }
 
 }  // namespace tenon::cells

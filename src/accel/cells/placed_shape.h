@@ -7,18 +7,34 @@
 
 #include "accel/cells/cell_scale.h"
 #include "csg/csg_tree.h"
+#include "math/vec2.h"
 
 namespace tenon::cells {
 
 /// The kinds of leaf whose chord is found without error bounds, by the same operations in the same order as spans(), so
 /// that t is the same double. Every other leaf is `general`: spans() itself.
 ///
-/// A torus has no chord, for its crossings may be four; but each of them is found from its neighbourhood. Nor has a
-/// revolved quadric along a line that is steeper than its side; there, too, a crossing is.
-enum class ShapeKind : std::uint8_t { general, torus, sphere, upright_sphere, box, upright_box, cylinder, revolved };
+/// A torus and a prism have no chord, for their crossings may be more than two; but each of them is found from its
+/// neighbourhood. Nor has a revolved quadric along a line that is steeper than its side; there, too, a crossing is.
+enum class ShapeKind : std::uint8_t {
+  general,
+  torus,
+  prism,
+  sphere,
+  upright_sphere,
+  box,
+  upright_box,
+  cylinder,
+  revolved,
+  convex
+};
 
 inline bool has_chord(ShapeKind kind) {
-  return kind > ShapeKind::torus;
+  return kind > ShapeKind::prism;
+}
+/// Of shapes with lists of faces one at a time is followed.
+inline bool has_faces(ShapeKind kind) {
+  return kind == ShapeKind::prism || kind == ShapeKind::convex;
 }
 
 /// A leaf by kind, and its place in the list of that kind.
@@ -97,6 +113,40 @@ struct alignas(64) PlacedRevolved {
   double start;
 };
 
+/// A face of a ConvexPolyhedron.
+struct PlacedPlane {
+  std::array<double, 4> plane;  ///< the normal and d
+  double least_slope;
+};
+
+struct alignas(64) PlacedConvex {
+  std::array<double, 3> center;
+  std::array<double, 3> origin;
+  std::array<double, 9> map;
+  std::uint32_t first, count;  ///< in PlacedShapes::planes
+};
+
+/// A wall of a Prism: where it begins, and its chord.
+struct PlacedWall {
+  Vec2 from, chord;
+  double length;  ///< of the chord; 0 for an arc, which is known by its box alone
+  Vec2 lower, upper;
+  std::uint32_t face;  ///< where the line rises towards the side that its normal points to, and leaves; else the next
+};
+
+/// One that does not taper, of few walls.
+struct alignas(64) PlacedPrism {
+  std::array<double, 3> center;
+  std::array<double, 3> origin;
+  std::array<double, 9> map;
+  double low, high;
+  double least_slope;   ///< of the caps
+  double least_across;  ///< of a wall, for a normal of length 1
+  /// A place that is known by plain arithmetic is off by less than half of this.
+  double margin;
+  std::uint32_t first, count;  ///< in PlacedShapes::walls
+};
+
 struct alignas(64) PlacedTorus {
   std::array<double, 3> center;
   std::array<double, 3> origin;
@@ -113,6 +163,10 @@ struct PlacedShapes {
   std::vector<PlacedBox> boxes;
   std::vector<PlacedCylinder> cylinders;
   std::vector<PlacedRevolved> revolved;
+  std::vector<PlacedConvex> convex;
+  std::vector<PlacedPlane> planes;
+  std::vector<PlacedPrism> prisms;
+  std::vector<PlacedWall> walls;
   std::vector<PlacedTorus> tori;
 
   static PlacedShapes of(const CsgTree& tree, const CellScale& scale);
