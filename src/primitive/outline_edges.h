@@ -24,6 +24,7 @@ struct OutlineEdge {
 
   bool is_arc() const { return bulge != 0; }
   Vec2 chord() const { return to - from; }
+  Vec2 middle_of_chord() const { return from + 0.5 * chord(); }
   /// The factor of the cross product, to a few roundings of itself.
   double flatness() const { return 0.5 * (1 - bulge) * (1 + bulge); }
   /// q at a point given relative to `from`.

@@ -133,6 +133,12 @@ class Prism::Line {
     return {dot(n, r.p), dot(n, r.d), dot(m, r.p_error) + gamma(4) * dot(m, abs(r.p)),
             dot(m, r.d_error) + gamma(4) * dot(m, abs(r.d))};
   }
+  // Where the line is nearest to a place; `other` where it does not move.
+  double nearest_to(const Vec2& v, double other) const {
+    const Relative r = relative_to(v);
+    const double at = -dot(r.p, r.d) / dot(r.d, r.d);
+    return std::isfinite(at) ? at : other;
+  }
   // On which side of the line a corner lies: positive to the left of its direction.
   struct Side {
     double value, error;
@@ -196,8 +202,8 @@ class Prism::Line {
   void cross_arc(std::uint32_t index, const OutlineEdge& edge, double begin, double end,
                  std::vector<EdgeCrossing>& out) const {
     const bool given = on_edge_ == static_cast<int>(index);
-    const double at = given ? 0 : 0.5 * begin + 0.5 * end;
-    // q along the line, expanded at `at`.
+    // q along the line, expanded at `at`: where it passes the middle of the chord, which does not depend on errors.
+    const double at = given ? 0 : nearest_to(edge.middle_of_chord(), 0.5 * begin + 0.5 * end);
     const Vec2 w = edge.chord();
     const double bulge = edge.bulge, k = edge.flatness();
     const Relative r = relative_to(edge.from);
@@ -215,11 +221,14 @@ class Prism::Line {
     const double b_size =
         ab * ld * (2 * lp + (ls + ls_slope) * lw) + ak * lw * (lp * ls_slope + ld * ls) + ab * lp * ls_slope * lw;
     const double c_size = ab * lp * (lp + ls * lw) + ak * lw * lp * ls;
-    const double away = given ? 0 : 0.5 * (end - begin) + gamma(4) * farthest();
+    const double away = given ? 0 : std::max(std::fabs(begin - at), std::fabs(end - at)) + gamma(4) * farthest();
     const double reach = std::fabs(at) + away;
     const double place = length(r.p_error + reach * r.d_error) + gamma(2) * (lp + std::fabs(at) * ld);
     const double scale_error = s_error_ + reach * s_slope_error_ + gamma(2) * (ls + std::fabs(at) * ls_slope);
-    const double p_most = lp + away * ld + place, s_most = ls + away * ls_slope + scale_error;
+    // The line is furthest from a place at one of its ends.
+    const double furthest =
+        given ? lp : std::max(length(r.p + begin * r.d), length(r.p + end * r.d)) + gamma(8) * (lp + farthest() * ld);
+    const double p_most = furthest + place, s_most = ls + away * ls_slope + scale_error;
 
     const double by_place = (ab * (2 * p_most + lw * s_most) + ak * lw * s_most) * place;
     const double by_scale = (ab + ak) * lw * p_most * scale_error;

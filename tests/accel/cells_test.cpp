@@ -172,7 +172,7 @@ TEST(Cells, TellQuadricsOfRevolutionByThemselves) {
   }
 }
 
-TEST(Cells, TellSolidsOfPlanesByThemselves) {
+TEST(Cells, TellPrismsAndPolyhedraByThemselves) {
   Draw draw(41);
   for (int i = 0; i < 8; ++i) {
     SCOPED_TRACE(i);
@@ -183,7 +183,7 @@ TEST(Cells, TellSolidsOfPlanesByThemselves) {
     for (int k = 0; k < sides; ++k) {
       const double angle = 360.0 * k / sides, c = cos_degrees(angle), s = sin_degrees(angle);
       const double r = draw.real(0.6, 1.2);
-      star.loops[0].push_back({r * c, r * s, 0});
+      star.loops[0].push_back({r * c, r * s, i < 2 || k % 2 == 0 ? 0 : draw.real(-0.3, 0.6)});
       if (k < 3) star.loops[1].push_back({0.2 * (k % 2), 0.2 * (k / 2), 0});
       planes.push_back({draw.real(0.5, 2) * Vec3{c, s, draw.real(-0.3, 0.3)}, 0.8});
     }
@@ -191,9 +191,9 @@ TEST(Cells, TellSolidsOfPlanesByThemselves) {
     const SceneNodeId solid =
         is_prism ? b.primitive("prism", {star, 1.5, i % 4 == 0, 1.0}) : b.primitive("convex_polyhedron", {planes});
     const Vec3 turn = i < 4 ? Vec3{0, 0, 0} : Vec3{20.0 * i, 50, 0};
-    // What comes near to a corner is left to the classifier.
+    // What comes near to a corner, or starts on an arc and meets that again, is not told so.
     const CsgTree tree = b.tree(b.rotate(turn, b.transform(Affine3::scale({1, 1.3, 0.8}), solid)));
-    expect_told_without_spans(tree, draw, is_prism ? 0.05 : 0.01);
+    expect_told_without_spans(tree, draw, is_prism ? 0.1 : 0.01);
   }
 }
 

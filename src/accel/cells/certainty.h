@@ -55,6 +55,17 @@ class Certainty {
     return (1 + square(q.slope)) * graze(error);
   }
 
+  /// The error of Prism::Line::cross_arc, of an arc of no more than half a circle. It lies within half a chord of the
+  /// middle of its chord, so that no place where the line is over its box is further than 0.71 chords from that,
+  /// or 1.42 from the nearest one, and p_most there is at most 2.7 chords, as is |p| + away |d|. What the scale errs is
+  /// part of the error of place, times no more than 4 chords.
+  /// @param chord  at the largest scale
+  /// @param place  bound on the error of a place in the plane of the outline
+  static double arc_error(double chord, double bulge, double place) {
+    const double b = std::fabs(bulge), k = 0.5 * (1 - b * b);
+    return chord * ((7 * b + k + 4) * place + (gamma(24) * (10 * b + 3 * k) + gamma(2) * 5) * chord);
+  }
+
   /// A plane that is met at slope s is crossed within error / |s|.
   double least_slope(double error) const { return 2 * error / scale_.certain; }
 

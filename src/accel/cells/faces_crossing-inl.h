@@ -9,9 +9,11 @@
 
 #include <hwy/highway.h>
 
+#include <span>
 #include <vector>
 
 #include "accel/cells/crossing-inl.h"
+#include "primitive/prism.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
@@ -61,82 +63,184 @@ HWY_INLINE CrossingLanes<D> ConvexCrossing(D d, const RayLanes<D>& ray, const st
   return end;
 }
 
-/// The only crossing of a prism about a place: with a cap, or with a segment.
-/// @param about  the place, known within 2 resolutions
+/// The only crossing of a prism about a place: with a cap, a segment or an arc. Each wall is one where the line crosses
+/// it about there; nearer than a margin to the end of a wall, or along one, nobody knows.
+template <class D>
+class PrismCrossing {
+ public:
+  using V = hn::Vec<D>;
+  using M = hn::Mask<D>;
+
+  /// @param local   the rays in the prism's frame
+  /// @param length  of their directions, in the world
+  /// @param enters  whether it is a crossing where the ray enters
+  /// @param about   where it is looked for, on the ray in the world: known within 2 resolutions
+  HWY_INLINE PrismCrossing(const RayLanes<D>& ray, const LocalLanes<D>& local, const PlacedPrism& prism, V length,
+                           M enters, V about)
+      : ray_(ray),
+        local_(local),
+        prism_(prism),
+        enters_(enters),
+        at_(hn::Sub(about, local.shift)),
+        near_(hn::Mul(hn::Set(D(), 8.0), ray.resolution)),
+        margin_(hn::Set(D(), prism.margin)),
+        length_(length),
+        x_(hn::MulAdd(at_, local.direction.x, local.origin.x)),
+        y_(hn::MulAdd(at_, local.direction.y, local.origin.y)) {}
+
+  /// That on the other side of the solid counts where it is near, too.
+  HWY_INLINE void MeetCaps(int on_face, double reach) {
+    const D d;
+    const V least = hn::Set(d, prism_.least_slope);
+    const auto clip = [&](M which) HWY_ATTR {
+      CrossingLanes<D> cap = EndOfLine(d, which);
+      ClipSlab(d, local_.origin.z, local_.direction.z, hn::Set(d, prism_.low), hn::Set(d, prism_.high), Prism::bottom,
+               Prism::top, hn::Mul(least, length_), hn::Mul(hn::Set(d, 16 * reach), least), on_face, which, cap);
+      return cap;
+    };
+    end_ = clip(enters_);
+    end_.hit = IsNear(end_.t);
+    end_.unsure = hn::Or(end_.unsure, IsNear(clip(hn::Not(enters_)).t));
+  }
+
+  /// The second root of an arc that the ray starts on comes otherwise (solve_deflated).
+  HWY_INLINE void MeetWalls(int on_face, const PlacedWall* walls) {
+    for (const PlacedWall& wall : std::span(walls, prism_.count)) {
+      const M apart = hn::Or(IsBeside(x_, wall.lower.x, wall.upper.x), IsBeside(y_, wall.lower.y, wall.upper.y));
+      if (hn::AllTrue(D(), apart)) continue;
+      if (wall.bulge == 0) {
+        MeetSegment(wall, hn::Not(apart));
+      } else if (on_face == static_cast<int>(wall.face) || on_face == static_cast<int>(wall.face + 1)) {
+        end_.unsure = hn::Or(end_.unsure, hn::Not(apart));
+      } else {
+        MeetArc(wall, hn::Not(apart));
+      }
+    }
+  }
+
+  HWY_INLINE CrossingLanes<D> Found() {
+    end_.unsure = hn::Or(end_.unsure, hn::Not(end_.hit));
+    end_.t = hn::Add(end_.t, local_.shift);
+    return end_;
+  }
+
+ private:
+  struct Relative {
+    V x, y;
+  };
+
+  M IsNear(V t) const { return hn::Le(hn::Abs(hn::Sub(t, at_)), near_); }
+  M IsBeside(V place, double low, double high) const {
+    const D d;
+    return hn::Or(hn::Lt(place, hn::Sub(hn::Set(d, low), margin_)), hn::Gt(place, hn::Add(hn::Set(d, high), margin_)));
+  }
+  HWY_INLINE Relative RelativeTo(const Vec2& place) const {
+    const D d;
+    return {hn::Sub(local_.origin.x, hn::Set(d, place.x)), hn::Sub(local_.origin.y, hn::Set(d, place.y))};
+  }
+  // Products of a vector of the outline, as Prism::Line has them.
+  static HWY_INLINE V DotOf(V ax, V ay, V bx, V by) { return hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)); }
+  static HWY_INLINE V CrossOf(V ax, V ay, V bx, V by) { return hn::Sub(hn::Mul(ax, by), hn::Mul(ay, bx)); }
+
+  // Along the normal (w.y, -w.x), which is as long as the wall.
+  HWY_INLINE void MeetSegment(const PlacedWall& wall, M there) {
+    const D d;
+    const V vx = local_.direction.x, vy = local_.direction.y;
+    const V wx = hn::Set(d, wall.chord.x), wy = hn::Set(d, wall.chord.y), minus_wx = hn::Set(d, -wall.chord.x);
+    const Relative p = RelativeTo(wall.from);
+    const V value = DotOf(wy, minus_wx, p.x, p.y), slope = DotOf(wy, minus_wx, vx, vy);
+    const V length = hn::Set(d, wall.length);
+    const V least = hn::Mul(length, hn::Mul(hn::Set(d, prism_.least_across), length_));
+    const M steep = hn::Gt(hn::Abs(slope), least);
+    const V t = hn::Div(hn::Neg(value), hn::IfThenElse(steep, slope, hn::Set(d, 1.0)));
+    const V along = hn::Div(DotOf(wx, wy, hn::MulAdd(t, vx, p.x), hn::MulAdd(t, vy, p.y)), length);
+    const M within = hn::And(hn::Gt(along, margin_), hn::Lt(along, hn::Sub(length, margin_)));
+    const M touches = hn::Le(hn::Abs(hn::MulAdd(at_, slope, value)), hn::Mul(length, margin_));
+    end_.unsure = hn::Or(end_.unsure, hn::AndNot(steep, hn::And(there, touches)));
+    Take(wall, hn::And(steep, hn::And(there, IsNear(t))), within, t, hn::Gt(slope, hn::Zero(d)));
+  }
+
+  // The roots of q, expanded where the line is nearest to the middle of the chord.
+  HWY_INLINE void MeetArc(const PlacedWall& wall, M there) {
+    const D d;
+    const V zero = hn::Zero(d), vx = local_.direction.x, vy = local_.direction.y;
+    const V wx = hn::Set(d, wall.chord.x), wy = hn::Set(d, wall.chord.y);
+    const V bulge = hn::Set(d, wall.bulge), flatness = hn::Set(d, wall.flatness);
+    const Relative from_middle = RelativeTo(wall.middle), start = RelativeTo(wall.from);
+    const V square = DotOf(vx, vy, vx, vy);
+    const V at = hn::Div(hn::Neg(DotOf(from_middle.x, from_middle.y, vx, vy)), square);
+    const V px = hn::Add(start.x, hn::Mul(at, vx)), py = hn::Add(start.y, hn::Mul(at, vy));
+    const V qx = hn::Sub(px, wx), qy = hn::Sub(py, wy);
+    const V a = hn::Mul(bulge, square);
+    const V turn = hn::Mul(flatness, CrossOf(wx, wy, vx, vy));
+    const V sum_b = hn::Add(DotOf(px, py, vx, vy), DotOf(vx, vy, qx, qy));
+    const V b = hn::Mul(hn::Set(d, 0.5), hn::Sub(hn::Mul(bulge, sum_b), turn));
+    const V c = hn::Sub(hn::Mul(bulge, DotOf(px, py, qx, qy)), hn::Mul(flatness, CrossOf(wx, wy, px, py)));
+    const V discriminant = hn::Sub(hn::Mul(b, b), hn::Mul(a, c));
+    const V graze = hn::Mul(hn::Set(d, wall.graze), ray_.square);
+    const M real = hn::Gt(discriminant, graze);
+    const M surely_apart = hn::Lt(discriminant, hn::Neg(graze));
+    end_.unsure = hn::Or(end_.unsure, hn::AndNot(hn::Or(real, surely_apart), there));
+    const V root = hn::Sqrt(hn::Max(discriminant, graze));
+    const V sum = hn::IfThenElse(hn::Ge(b, zero), hn::Neg(hn::Add(b, root)), hn::Sub(root, b));
+    const V far = hn::Div(sum, a), near = hn::Div(c, sum);
+    for (const bool is_first : {true, false}) {
+      const V t = hn::Add(is_first ? hn::Min(far, near) : hn::Max(far, near), at);
+      // On the arc's side of the chord, and not so near to where its box ends that its place there is cut off.
+      const V x = hn::MulAdd(t, vx, start.x), y = hn::MulAdd(t, vy, start.y);
+      const V cross = CrossOf(wx, wy, x, y);
+      const V side = hn::Div(wall.bulge > 0 ? hn::Neg(cross) : cross, hn::Set(d, wall.length));
+      const M crosses = hn::And(hn::And(real, there), hn::And(IsNear(t), hn::Ge(side, hn::Neg(margin_))));
+      const auto is_inner = [&](V place, double low, double high, double from) HWY_ATTR {
+        return hn::And(hn::Gt(place, hn::Add(hn::Set(d, low - from), margin_)),
+                       hn::Lt(place, hn::Sub(hn::Set(d, high - from), margin_)));
+      };
+      const M within = hn::And(hn::Gt(side, margin_), hn::And(is_inner(x, wall.lower.x, wall.upper.x, wall.from.x),
+                                                              is_inner(y, wall.lower.y, wall.upper.y, wall.from.y)));
+      Take(wall, crosses, within, t, is_first == (wall.bulge < 0) ? real : hn::Not(hn::Eq(t, t)));
+    }
+  }
+
+  // @param crosses  where the wall is crossed, about there
+  // @param within   and not near to its end
+  // @param rises    towards the side that its normal points to
+  HWY_INLINE void Take(const PlacedWall& wall, M crosses, M within, V t, M rises) {
+    const D d;
+    end_.unsure = hn::Or(end_.unsure, hn::And(crosses, hn::Or(end_.hit, hn::Not(within))));
+    end_.hit = hn::Or(end_.hit, crosses);
+    end_.t = hn::IfThenElse(crosses, t, end_.t);
+    const M is_next = hn::Not(hn::Xor(enters_, rises));
+    const V face = hn::IfThenElse(is_next, hn::Set(d, wall.face + 1.0), hn::Set(d, wall.face));
+    end_.face = hn::IfThenElse(crosses, face, end_.face);
+  }
+
+  const RayLanes<D>& ray_;
+  const LocalLanes<D>& local_;
+  const PlacedPrism& prism_;
+  const M enters_;
+  const V at_, near_, margin_, length_;
+  const V x_, y_;  // the place
+  CrossingLanes<D> end_;
+};
+
+/// Those of lanes with shapes of their own are not told.
 template <class D, class Lanes>
-HWY_INLINE CrossingLanes<D> PrismCrossing(D d, const RayLanes<D>& ray, const std::vector<PlacedWall>& walls,
-                                          const Lanes& lanes, int on_face, double reach, hn::Vec<D> length,
-                                          hn::Mask<D> enters, hn::Vec<D> about) {
+HWY_INLINE CrossingLanes<D> FindPrismCrossing(D d, const RayLanes<D>& ray, const std::vector<PlacedWall>& walls,
+                                              const Lanes& lanes, int on_face, double reach, hn::Vec<D> length,
+                                              hn::Mask<D> enters, hn::Vec<D> about) {
   using Shape = typename Lanes::Shape;
-  CrossingLanes<D> end = EndOfLine(d, enters);
-  end.unsure = end.hit;
   if constexpr (requires { lanes.shape(); }) {
     const LocalLanes<D> local =
         ToLocal(d, ray, lanes, Get3(d, lanes, &Shape::center), Get3(d, lanes, &Shape::origin), on_face >= 0);
-    const Shape& shape = lanes.shape();
-    const Vec3Lanes<D>&o = local.origin, &v = local.direction;
-    const auto at = hn::Sub(about, local.shift), near = hn::Mul(hn::Set(d, 8.0), ray.resolution);
-    const auto is_near = [&](hn::Vec<D> t) { return hn::Le(hn::Abs(hn::Sub(t, at)), near); };
-
-    // Step 1: caps. That on the other side of the solid counts where it is near, too.
-    const auto least = hn::Set(d, shape.least_slope);
-    const auto clip = [&](hn::Mask<D> which) {
-      CrossingLanes<D> cap = EndOfLine(d, which);
-      ClipSlab(d, o.z, v.z, hn::Set(d, shape.low), hn::Set(d, shape.high), 0, 1, hn::Mul(least, length),
-               hn::Mul(hn::Set(d, 16 * reach), least), on_face, which, cap);
-      return cap;
-    };
-    const CrossingLanes<D> cap = clip(enters), other = clip(hn::Not(enters));
-    auto found = is_near(cap.t);
-    auto unsure = hn::Or(cap.unsure, is_near(other.t));
-    end.t = cap.t;
-    end.face = cap.face;
-
-    // Step 2: walls, each of which may be crossed where its segment is, but for the margin at its ends.
-    const auto zero = hn::Zero(d);
-    const auto least_across = hn::Mul(hn::Set(d, shape.least_across), length);
-    const auto margin = hn::Set(d, shape.margin);
-    const auto x = hn::MulAdd(at, v.x, o.x), y = hn::MulAdd(at, v.y, o.y);
-    for (std::uint32_t i = 0; i < shape.count; ++i) {
-      const PlacedWall& wall = walls[shape.first + i];
-      const auto is_beside = [&](hn::Vec<D> place, double low, double high) {
-        return hn::Or(hn::Lt(place, hn::Sub(hn::Set(d, low), margin)),
-                      hn::Gt(place, hn::Add(hn::Set(d, high), margin)));
-      };
-      const auto apart = hn::Or(is_beside(x, wall.lower.x, wall.upper.x), is_beside(y, wall.lower.y, wall.upper.y));
-      if (hn::AllTrue(d, apart)) continue;
-      const auto there = hn::Not(apart);
-      if (wall.length == 0) {
-        unsure = hn::Or(unsure, there);
-        continue;
-      }
-      // Prism::Line::along: the normal is (w.y, -w.x), and not of length 1.
-      const auto wx = hn::Set(d, wall.chord.x), wy = hn::Set(d, wall.chord.y), minus_wx = hn::Set(d, -wall.chord.x);
-      const auto px = hn::Sub(o.x, hn::Set(d, wall.from.x)), py = hn::Sub(o.y, hn::Set(d, wall.from.y));
-      const auto value = hn::Add(hn::Mul(wy, px), hn::Mul(minus_wx, py));
-      const auto slope = hn::Add(hn::Mul(wy, v.x), hn::Mul(minus_wx, v.y));
-      const auto wall_length = hn::Set(d, wall.length);
-      const auto steep = hn::Gt(hn::Abs(slope), hn::Mul(wall_length, least_across));
-      const auto t = hn::Div(hn::Neg(value), hn::IfThenElse(steep, slope, hn::Set(d, 1.0)));
-      const auto crosses = hn::And(hn::And(steep, there), is_near(t));
-      const auto along =
-          hn::Div(hn::MulAdd(wx, hn::MulAdd(t, v.x, px), hn::Mul(wy, hn::MulAdd(t, v.y, py))), wall_length);
-      const auto within = hn::And(hn::Gt(along, margin), hn::Lt(along, hn::Sub(wall_length, margin)));
-      // Near to the end of a wall, or along one, nobody knows.
-      const auto touches = hn::Le(hn::Abs(hn::MulAdd(at, slope, value)), hn::Mul(wall_length, margin));
-      const auto runs_along = hn::AndNot(steep, hn::And(there, touches));
-      unsure = hn::Or(unsure, hn::Or(hn::And(crosses, hn::Or(found, hn::Not(within))), runs_along));
-      found = hn::Or(found, crosses);
-      end.t = hn::IfThenElse(crosses, t, end.t);
-      const auto rises = hn::Not(hn::Xor(enters, hn::Gt(slope, zero)));
-      const auto face = hn::IfThenElse(rises, hn::Set(d, wall.face + 1.0), hn::Set(d, wall.face));
-      end.face = hn::IfThenElse(crosses, face, end.face);
-    }
-    end.t = hn::Add(end.t, local.shift);
-    end.hit = found;
-    end.unsure = hn::Or(unsure, hn::Not(found));
+    PrismCrossing<D> crossing(ray, local, lanes.shape(), length, enters, about);
+    crossing.MeetCaps(on_face, reach);
+    crossing.MeetWalls(on_face, walls.data() + lanes.shape().first);
+    return crossing.Found();
+  } else {
+    CrossingLanes<D> end = EndOfLine(d, enters);
+    end.unsure = end.hit;
+    return end;
   }
-  return end;
 }
 
 }  // namespace HWY_NAMESPACE

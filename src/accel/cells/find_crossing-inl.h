@@ -41,7 +41,7 @@ HWY_INLINE CrossingLanes<D> FindCrossing(D d, const RayLanes<D>& ray, const Plac
     case ShapeKind::convex:
       return ConvexCrossing(d, ray, shapes.planes, take(shapes.convex), on_face, reach, length, enters);
     case ShapeKind::prism:
-      return PrismCrossing(d, ray, shapes.walls, take(shapes.prisms), on_face, reach, length, enters, about);
+      return FindPrismCrossing(d, ray, shapes.walls, take(shapes.prisms), on_face, reach, length, enters, about);
     case ShapeKind::torus:
     case ShapeKind::general:
       break;

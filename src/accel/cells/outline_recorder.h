@@ -15,9 +15,8 @@ namespace tenon::cells {
 /// Makes an OutlineRecord of what a swept outline comes to in a box.
 ///
 /// What spans() says of a wall errs by what its place errs, and by roundings of products of coordinates. Those of a
-/// segment amount to twice the error of place; those of an arc, of q over the length of its gradient, to at most 7
-/// times: the terms of that error are 2 |p| + |chord| in size, with p on the arc, which is no longer than 1.6 chords
-/// where the bulge is at most 1, and the arcs of larger bulge are left out.
+/// segment amount to twice the error of place; those of an arc are Certainty::arc_error() over the length of its
+/// gradient, which is at least half the chord.
 class OutlineRecorder {
  public:
   /// @param center  what the record's places are relative to
@@ -69,7 +68,10 @@ class OutlineRecorder {
   bool add_arc(const Certainty& certainty, const SweptPart& part, const OutlineEdge& wall, double extent,
                std::size_t at) {
     const double radius = 0.5 / WallsRecorder::curvature_of(wall);
-    const double error = part.most_scale * (8 * error_ + gamma(64) * extent);
+    const double of_place = part.most_scale * error_ + gamma(8) * extent;
+    const double chord = part.most_scale * length(wall.chord());
+    const double error =
+        Certainty::arc_error(chord, wall.bulge, of_place) / (0.5 * chord * (1 + wall.bulge * wall.bulge));
     // q over its gradient times the diameter is the square of the distance from the centre, less that of the radius.
     if (!(error < radius / 0x1p10)) return false;
     const double diameter = 2 * radius, tilt = 1 + std::fabs(part.scale_slope) * diameter;

@@ -148,20 +148,25 @@ class Placer {
     // More of them take longer here than from their hierarchy (crossing_near).
     constexpr std::size_t most_walls = 32;
     if (prism.scale != 1 || edges.size() > most_walls) return {ShapeKind::general, 0};
+    double reach = 0;
+    for (const OutlineEdge& edge : edges) {
+      if (std::fabs(edge.bulge) > 1) return {ShapeKind::general, 0};
+      reach = std::max(reach, length(edge.from) + length(edge.chord()));
+    }
     const Certainty certainty(leaf, scale_);
     const Placement& p = leaf.placement;
+    const double e = std::hypot(certainty.place().x, certainty.place().y) + gamma(8) * reach;
     const std::size_t first = shapes_.walls.size();
-    double reach = 0;
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const OutlineEdge& edge = edges[i];
-      const Vec2 w = edge.chord();
-      reach = std::max(reach, length(edge.from) + length(w));
+      const double chord = length(edge.chord());
       // One of no length is none.
-      if (length(w) == 0) continue;
-      shapes_.walls.push_back({edge.from, w, edge.is_arc() ? 0 : length(w), edge.lower, edge.upper,
+      if (chord == 0) continue;
+      const double graze = certainty.graze(Certainty::arc_error(chord, edge.bulge, e));
+      shapes_.walls.push_back({edge.from, edge.chord(), edge.middle_of_chord(), chord, edge.bulge, edge.flatness(),
+                               graze, edge.lower, edge.upper,
                                Prism::walls + face_of_edge(static_cast<std::uint32_t>(i), false, true)});
     }
-    const double e = std::hypot(certainty.place().x, certainty.place().y) + gamma(8) * reach;
     shapes_.prisms.push_back({array_of(p.world_center()), array_of(p.world_origin()),
                               rows_of(p.local_from_world_linear()), prism.low(), prism.high(),
                               certainty.least_slope(certainty.place().z), certainty.least_slope(2 * e),

@@ -126,15 +126,17 @@ struct alignas(64) PlacedConvex {
   std::uint32_t first, count;  ///< in PlacedShapes::planes
 };
 
-/// A wall of a Prism: where it begins, and its chord.
+/// A wall of a Prism: an OutlineEdge.
 struct PlacedWall {
-  Vec2 from, chord;
-  double length;  ///< of the chord; 0 for an arc, which is known by its box alone
+  Vec2 from, chord, middle;  ///< where it begins, its chord, and the middle of that
+  double length;             ///< of the chord
+  double bulge, flatness;
+  double graze;  ///< of an arc
   Vec2 lower, upper;
   std::uint32_t face;  ///< where the line rises towards the side that its normal points to, and leaves; else the next
 };
 
-/// One that does not taper, of few walls.
+/// One that does not taper, of few walls: segments, and arcs of no more than half a circle.
 struct alignas(64) PlacedPrism {
   std::array<double, 3> center;
   std::array<double, 3> origin;
