@@ -36,6 +36,8 @@ class Prism::Line {
     if (!clip_half_space(along({-1, 0}, {lower.x, 0}), 0, false, over)) return false;
     if (!clip_half_space(along({0, 1}, {0, upper.y}), 0, false, over)) return false;
     if (!clip_half_space(along({0, -1}, {0, lower.y}), 0, false, over)) return false;
+    first_ = slab.enter.t;
+    last_ = slab.leave.t;
     part_.begin = std::max(over.enter.lo, slab.enter.lo);
     part_.end = std::min(over.leave.hi, slab.leave.hi);
     // Behind the tip everything is mirrored.
@@ -133,10 +135,13 @@ class Prism::Line {
     return {dot(n, r.p), dot(n, r.d), dot(m, r.p_error) + gamma(4) * dot(m, abs(r.p)),
             dot(m, r.d_error) + gamma(4) * dot(m, abs(r.d))};
   }
-  // Where the line is nearest to a place; `other` where it does not move.
+  // Where the line of a straight prism is nearest to a place between the caps, which does not depend on error bounds;
+  // `other` where that is not known.
   double nearest_to(const Vec2& v, double other) const {
     const Relative r = relative_to(v);
-    const double at = -dot(r.p, r.d) / dot(r.d, r.d);
+    const double nearest = -dot(r.p, r.d) / dot(r.d, r.d);
+    const double not_before = nearest > first_ ? nearest : first_;
+    const double at = not_before > last_ ? last_ : not_before;
     return std::isfinite(at) ? at : other;
   }
   // On which side of the line a corner lies: positive to the left of its direction.
@@ -202,8 +207,9 @@ class Prism::Line {
   void cross_arc(std::uint32_t index, const OutlineEdge& edge, double begin, double end,
                  std::vector<EdgeCrossing>& out) const {
     const bool given = on_edge_ == static_cast<int>(index);
-    // q along the line, expanded at `at`: where it passes the middle of the chord, which does not depend on errors.
-    const double at = given ? 0 : nearest_to(edge.middle_of_chord(), 0.5 * begin + 0.5 * end);
+    // q along the line, expanded at `at`.
+    const double middle = 0.5 * begin + 0.5 * end;
+    const double at = given ? 0 : s_slope_ == 0 ? nearest_to(edge.middle_of_chord(), middle) : middle;
     const Vec2 w = edge.chord();
     const double bulge = edge.bulge, k = edge.flatness();
     const Relative r = relative_to(edge.from);
@@ -285,6 +291,7 @@ class Prism::Line {
   Vec2 o_, d_, o_error_, d_error_;
   double s_ = 1, s_slope_ = 0, s_error_ = 0, s_slope_error_ = 0;
   int on_edge_;
+  double first_ = 0, last_ = 0;  // where it is between the caps
   SearchedPart part_;
   Vec2 pad_;  // bound on the error of a box test
   std::vector<std::pair<double, double>> in_segments_;

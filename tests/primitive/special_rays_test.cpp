@@ -192,6 +192,18 @@ TEST(SpecialRays, InAWallOfAPrismAreInside) {
 }
 
 // The line runs along a short wall of a hole, whose plane goes on through all of the solid.
+// Where a line hardly moves over the plane of the outline, it is nearest to a place of it far beyond the caps.
+TEST(SpecialRays, AllButAlongTheAxisOfAPrismCrossNoArc) {
+  const Outline circle{{{{1, 0, 1}, {-1, 0, 1}}}};
+  for (const double scale : {1.0, 0.5, 1.5}) {
+    for (const double aside : {1e-9, 1e-13, 1e-16}) {
+      SCOPED_TRACE(testing::Message() << "scale " << scale << " aside " << aside);
+      const Spans spans = cross("prism", {circle, 1.0, false, scale}, {0.3, 0.2, -0.5}, {aside, -2 * aside, 1});
+      expect_chord(spans, 0.5, 1.5);
+    }
+  }
+}
+
 TEST(SpecialRays, InAWallOfATwistedPrismAreInDoubtThereAlone) {
   const Outline outline{{{{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, {{0.5, 0, 0}, {1, 0, 0}, {1, 0.25, 0}}}};
   const std::vector<FieldValue> prism{outline, 1.0, false, 90.0, 1.0, 1.0};

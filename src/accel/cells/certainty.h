@@ -46,7 +46,8 @@ class Certainty {
   /// graze() for a solid of revolution, by the bound of RevolvedQuadric::error_at over its window. There |x, y| is at
   /// most 3.4 R and w at most 3.2 R (what is expanded at one end of the window reaches to the other, and a sixteenth
   /// beyond), so that all terms together are at most 22 R², and twice their root 9.4 R; |offset| + |slope z| is at most
-  /// 2 R. None where the errors are not small against the solid.
+  /// 2 R. The end that is not within the scene is at most twice as far off as what the error of place is right for; of
+  /// that it is a small part, most of which is the origin's. None where the errors are not small against the solid.
   std::optional<double> graze_of(const RevolvedQuadric& q) const {
     const double R = q.greatest_radius, e = std::hypot(place_.x, place_.y), linear = std::fabs(q.linear) * place_.z;
     const double w = std::fabs(q.slope) * place_.z + gamma(5) * 2 * R;
@@ -56,14 +57,16 @@ class Certainty {
   }
 
   /// The error of Prism::Line::cross_arc, of an arc of no more than half a circle. It lies within half a chord of the
-  /// middle of its chord, so that no place where the line is over its box is further than 0.71 chords from that,
-  /// or 1.42 from the nearest one, and p_most there is at most 2.7 chords, as is |p| + away |d|. What the scale errs is
-  /// part of the error of place, times no more than 4 chords.
+  /// middle of its chord, so that no place where the line is over its box is further than 0.71 chords from that, nor is
+  /// the one where q is expanded. So p_most there is at most 1.42 chords, and |p| 1.21, and away |d| another 1.42: the
+  /// terms c_size + away (2 b_size + away a_size) are at most 14 b + 4 k squares of the chord. What the scale errs is
+  /// part of the error of place, times no more than 4 chords. The place where a straight prism is expanded lies between
+  /// the caps, and so no further off than twice what the error of place is right for.
   /// @param chord  at the largest scale
   /// @param place  bound on the error of a place in the plane of the outline
   static double arc_error(double chord, double bulge, double place) {
     const double b = std::fabs(bulge), k = 0.5 * (1 - b * b);
-    return chord * ((7 * b + k + 4) * place + (gamma(24) * (10 * b + 3 * k) + gamma(2) * 5) * chord);
+    return chord * ((8 * b + 2 * k + 4) * place + (gamma(24) * (14 * b + 4 * k) + gamma(2) * 5) * chord);
   }
 
   /// A plane that is met at slope s is crossed within error / |s|.

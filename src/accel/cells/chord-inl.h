@@ -37,7 +37,7 @@ HWY_INLINE ChordLanes<D> FindChord(D d, const RayLanes<D>& ray, const PlacedShap
   ChordLanes<D> chord;
   // Of two chords none is told.
   const auto nowhere = hn::Set(d, std::numeric_limits<double>::quiet_NaN());
-  const auto find = [&](hn::Mask<D> enters) {
+  const auto find = [&](hn::Mask<D> enters) HWY_ATTR {
     return FindCrossing(d, ray, shapes, shape.kind(), take, on_face, reach, length, enters, nowhere);
   };
   chord.enter = find(all);

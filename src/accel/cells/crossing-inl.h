@@ -151,6 +151,29 @@ HWY_INLINE RootLanes<D> SolveQuadratic(D d, hn::Vec<D> a, hn::Vec<D> b, hn::Vec<
   return root;
 }
 
+/// Both roots of a t² + 2 b t + c, whatever their signs, as solve_quadratic() has them; certain where the discriminant
+/// exceeds `graze`, or is below minus that, and a is not zero.
+template <class D>
+struct RootsLanes {
+  hn::Vec<D> first, second;
+  hn::Mask<D> real, unsure;
+};
+template <class D>
+HWY_INLINE RootsLanes<D> FindRoots(D d, hn::Vec<D> a, hn::Vec<D> b, hn::Vec<D> c, hn::Vec<D> graze) {
+  RootsLanes<D> roots;
+  const auto zero = hn::Zero(d);
+  const auto discriminant = hn::Sub(hn::Mul(b, b), hn::Mul(a, c));
+  roots.real = hn::Gt(discriminant, graze);
+  const auto known = hn::Or(roots.real, hn::Lt(discriminant, hn::Neg(graze)));
+  roots.unsure = hn::Or(hn::Eq(a, zero), hn::Not(known));
+  const auto width = hn::Sqrt(hn::Max(discriminant, graze));
+  const auto sum = hn::IfThenElse(hn::Ge(b, zero), hn::Neg(hn::Add(b, width)), hn::Sub(width, b));
+  const auto far = hn::Div(sum, a), near = hn::Div(c, sum);
+  roots.first = hn::Min(far, near);
+  roots.second = hn::Max(far, near);
+  return roots;
+}
+
 /// From the surface of a quadric: one root is the start, the other -2 b / a (solve_deflated).
 template <class D>
 HWY_INLINE RootLanes<D> SolveFromSurface(D d, hn::Vec<D> a, hn::Vec<D> b, hn::Mask<D> first) {
@@ -163,7 +186,7 @@ HWY_INLINE RootLanes<D> SolveFromSurface(D d, hn::Vec<D> a, hn::Vec<D> b, hn::Ma
   return root;
 }
 
-/// Where lines of the world enter or leave a convex solid.
+/// Where lines of the world enter or leave a solid: by their only chord, or about a place.
 ///
 /// Where `unsure` is false it is exactly the crossing of spans(), and its bound is at most the resolution, if the line
 /// is inside for longer than what grazes; one further off than the whole scene may be given as infinite.
@@ -249,6 +272,18 @@ HWY_INLINE void ClipSlab(D d, hn::Vec<D> origin, hn::Vec<D> direction, hn::Vec<D
   end.unsure = hn::Or(end.unsure, hn::AndNot(steep, hn::Not(hn::Gt(hn::Abs(depth), near_plane))));
 }
 
+/// A line cut with the slab between two caps.
+/// @param least_slope  for a direction of length 1
+template <class D>
+HWY_INLINE CrossingLanes<D> CutByCaps(D d, const LocalLanes<D>& local, hn::Vec<D> low, hn::Vec<D> high, double low_face,
+                                      double high_face, hn::Vec<D> least_slope, hn::Vec<D> length, double reach,
+                                      int on_face, hn::Mask<D> enters) {
+  CrossingLanes<D> end = EndOfLine(d, enters);
+  ClipSlab(d, local.origin.z, local.direction.z, low, high, low_face, high_face, hn::Mul(least_slope, length),
+           hn::Mul(hn::Set(d, 16 * reach), least_slope), on_face, enters, end);
+  return end;
+}
+
 template <class D, class Lanes>
 HWY_INLINE CrossingLanes<D> BoxCrossing(D d, const RayLanes<D>& ray, const Lanes& shape, int on_face, double reach,
                                         hn::Vec<D> length, hn::Mask<D> enters) {
@@ -275,11 +310,9 @@ HWY_INLINE CrossingLanes<D> CylinderCrossing(D d, const RayLanes<D>& ray, const 
   enum Face { side, bottom, top };
   const LocalLanes<D> local =
       ToLocal(d, ray, shape, Get3(d, shape, &Shape::center), Get3(d, shape, &Shape::origin), on_face >= 0);
-  CrossingLanes<D> end = EndOfLine(d, enters);
-  const auto slope = shape.Get(&Shape::least_slope);
   const auto low = shape.Get(&Shape::low), high = shape.Get(&Shape::high);
-  ClipSlab(d, local.origin.z, local.direction.z, low, high, bottom, top, hn::Mul(slope, length),
-           hn::Mul(hn::Set(d, 16 * reach), slope), on_face, enters, end);
+  CrossingLanes<D> end =
+      CutByCaps(d, local, low, high, bottom, top, shape.Get(&Shape::least_slope), length, reach, on_face, enters);
 
   const auto zero = hn::Zero(d);
   const Vec3Lanes<D> o{local.origin.x, local.origin.y, zero}, v{local.direction.x, local.direction.y, zero};

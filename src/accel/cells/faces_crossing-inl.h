@@ -91,16 +91,16 @@ class PrismCrossing {
   /// That on the other side of the solid counts where it is near, too.
   HWY_INLINE void MeetCaps(int on_face, double reach) {
     const D d;
-    const V least = hn::Set(d, prism_.least_slope);
-    const auto clip = [&](M which) HWY_ATTR {
-      CrossingLanes<D> cap = EndOfLine(d, which);
-      ClipSlab(d, local_.origin.z, local_.direction.z, hn::Set(d, prism_.low), hn::Set(d, prism_.high), Prism::bottom,
-               Prism::top, hn::Mul(least, length_), hn::Mul(hn::Set(d, 16 * reach), least), on_face, which, cap);
-      return cap;
+    const auto cut = [&](M which) HWY_ATTR {
+      return CutByCaps(d, local_, hn::Set(d, prism_.low), hn::Set(d, prism_.high), Prism::bottom, Prism::top,
+                       hn::Set(d, prism_.least_slope), length_, reach, on_face, which);
     };
-    end_ = clip(enters_);
+    end_ = cut(enters_);
+    const V other = cut(hn::Not(enters_)).t;
+    first_ = hn::IfThenElse(enters_, end_.t, other);
+    last_ = hn::IfThenElse(enters_, other, end_.t);
     end_.hit = IsNear(end_.t);
-    end_.unsure = hn::Or(end_.unsure, IsNear(clip(hn::Not(enters_)).t));
+    end_.unsure = hn::Or(end_.unsure, IsNear(other));
   }
 
   /// The second root of an arc that the ray starts on comes otherwise (solve_deflated).
@@ -160,15 +160,17 @@ class PrismCrossing {
     Take(wall, hn::And(steep, hn::And(there, IsNear(t))), within, t, hn::Gt(slope, hn::Zero(d)));
   }
 
-  // The roots of q, expanded where the line is nearest to the middle of the chord.
+  // The roots of q, expanded where the line is nearest to the middle of the chord between the caps.
   HWY_INLINE void MeetArc(const PlacedWall& wall, M there) {
     const D d;
-    const V zero = hn::Zero(d), vx = local_.direction.x, vy = local_.direction.y;
+    const V vx = local_.direction.x, vy = local_.direction.y;
     const V wx = hn::Set(d, wall.chord.x), wy = hn::Set(d, wall.chord.y);
     const V bulge = hn::Set(d, wall.bulge), flatness = hn::Set(d, wall.flatness);
     const Relative from_middle = RelativeTo(wall.middle), start = RelativeTo(wall.from);
     const V square = DotOf(vx, vy, vx, vy);
-    const V at = hn::Div(hn::Neg(DotOf(from_middle.x, from_middle.y, vx, vy)), square);
+    const V nearest = hn::Div(hn::Neg(DotOf(from_middle.x, from_middle.y, vx, vy)), square);
+    const V not_before = hn::IfThenElse(hn::Gt(nearest, first_), nearest, first_);
+    const V at = hn::IfThenElse(hn::Gt(not_before, last_), last_, not_before);
     const V px = hn::Add(start.x, hn::Mul(at, vx)), py = hn::Add(start.y, hn::Mul(at, vy));
     const V qx = hn::Sub(px, wx), qy = hn::Sub(py, wy);
     const V a = hn::Mul(bulge, square);
@@ -176,28 +178,22 @@ class PrismCrossing {
     const V sum_b = hn::Add(DotOf(px, py, vx, vy), DotOf(vx, vy, qx, qy));
     const V b = hn::Mul(hn::Set(d, 0.5), hn::Sub(hn::Mul(bulge, sum_b), turn));
     const V c = hn::Sub(hn::Mul(bulge, DotOf(px, py, qx, qy)), hn::Mul(flatness, CrossOf(wx, wy, px, py)));
-    const V discriminant = hn::Sub(hn::Mul(b, b), hn::Mul(a, c));
-    const V graze = hn::Mul(hn::Set(d, wall.graze), ray_.square);
-    const M real = hn::Gt(discriminant, graze);
-    const M surely_apart = hn::Lt(discriminant, hn::Neg(graze));
-    end_.unsure = hn::Or(end_.unsure, hn::AndNot(hn::Or(real, surely_apart), there));
-    const V root = hn::Sqrt(hn::Max(discriminant, graze));
-    const V sum = hn::IfThenElse(hn::Ge(b, zero), hn::Neg(hn::Add(b, root)), hn::Sub(root, b));
-    const V far = hn::Div(sum, a), near = hn::Div(c, sum);
+    const RootsLanes<D> roots = FindRoots(d, a, b, c, hn::Mul(hn::Set(d, wall.graze), ray_.square));
+    end_.unsure = hn::Or(end_.unsure, hn::And(roots.unsure, there));
     for (const bool is_first : {true, false}) {
-      const V t = hn::Add(is_first ? hn::Min(far, near) : hn::Max(far, near), at);
+      const V t = hn::Add(is_first ? roots.first : roots.second, at);
       // On the arc's side of the chord, and not so near to where its box ends that its place there is cut off.
       const V x = hn::MulAdd(t, vx, start.x), y = hn::MulAdd(t, vy, start.y);
       const V cross = CrossOf(wx, wy, x, y);
       const V side = hn::Div(wall.bulge > 0 ? hn::Neg(cross) : cross, hn::Set(d, wall.length));
-      const M crosses = hn::And(hn::And(real, there), hn::And(IsNear(t), hn::Ge(side, hn::Neg(margin_))));
+      const M crosses = hn::And(hn::And(roots.real, there), hn::And(IsNear(t), hn::Ge(side, hn::Neg(margin_))));
       const auto is_inner = [&](V place, double low, double high, double from) HWY_ATTR {
         return hn::And(hn::Gt(place, hn::Add(hn::Set(d, low - from), margin_)),
                        hn::Lt(place, hn::Sub(hn::Set(d, high - from), margin_)));
       };
       const M within = hn::And(hn::Gt(side, margin_), hn::And(is_inner(x, wall.lower.x, wall.upper.x, wall.from.x),
                                                               is_inner(y, wall.lower.y, wall.upper.y, wall.from.y)));
-      Take(wall, crosses, within, t, is_first == (wall.bulge < 0) ? real : hn::Not(hn::Eq(t, t)));
+      Take(wall, crosses, within, t, is_first == (wall.bulge < 0) ? roots.real : hn::Not(roots.real));
     }
   }
 
@@ -219,7 +215,8 @@ class PrismCrossing {
   const PlacedPrism& prism_;
   const M enters_;
   const V at_, near_, margin_, length_;
-  const V x_, y_;  // the place
+  const V x_, y_;   // the place
+  V first_, last_;  // where the line is between the caps
   CrossingLanes<D> end_;
 };
 

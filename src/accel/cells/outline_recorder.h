@@ -68,10 +68,8 @@ class OutlineRecorder {
   bool add_arc(const Certainty& certainty, const SweptPart& part, const OutlineEdge& wall, double extent,
                std::size_t at) {
     const double radius = 0.5 / WallsRecorder::curvature_of(wall);
-    const double of_place = part.most_scale * error_ + gamma(8) * extent;
     const double chord = part.most_scale * length(wall.chord());
-    const double error =
-        Certainty::arc_error(chord, wall.bulge, of_place) / (0.5 * chord * (1 + wall.bulge * wall.bulge));
+    const double error = Certainty::arc_error(chord, wall.bulge, error_ + gamma(8) * extent) / wall.gradient_length();
     // q over its gradient times the diameter is the square of the distance from the centre, less that of the radius.
     if (!(error < radius / 0x1p10)) return false;
     const double diameter = 2 * radius, tilt = 1 + std::fabs(part.scale_slope) * diameter;

@@ -33,7 +33,8 @@ HWY_INLINE CrossingLanes<D> SteepCrossing(D d, const CrossingLanes<D>& cap, hn::
   return end;
 }
 
-/// @param about  where the crossing is looked for; anything but a number where that is not known
+/// @param about  where the crossing is looked for; where that is not known, anything but a number. Then a line that is
+///               steeper than the side, and crosses it, is not told: it has two parts within.
 template <class D, class Lanes>
 HWY_INLINE CrossingLanes<D> RevolvedCrossing(D d, const RayLanes<D>& ray, const Lanes& shape, int on_face, double reach,
                                              hn::Vec<D> length, hn::Mask<D> enters, hn::Vec<D> about) {
@@ -42,15 +43,11 @@ HWY_INLINE CrossingLanes<D> RevolvedCrossing(D d, const RayLanes<D>& ray, const 
   const LocalLanes<D> local =
       ToLocal(d, ray, shape, Get3(d, shape, &Shape::center), Get3(d, shape, &Shape::origin), on_face >= 0);
   const Vec3Lanes<D>&o = local.origin, &v = local.direction;
-  const auto slope_to_caps = hn::Mul(shape.Get(&Shape::least_slope), length);
-  const auto near_plane = hn::Mul(hn::Set(d, 16 * reach), shape.Get(&Shape::least_slope));
-  const auto low = shape.Get(&Shape::low), high = shape.Get(&Shape::high);
-  const auto clip = [&](hn::Mask<D> which) {
-    CrossingLanes<D> end = EndOfLine(d, which);
-    ClipSlab(d, o.z, v.z, low, high, bottom, top, slope_to_caps, near_plane, on_face, which, end);
-    return end;
+  const auto cut = [&](hn::Mask<D> which) HWY_ATTR {
+    return CutByCaps(d, local, shape.Get(&Shape::low), shape.Get(&Shape::high), bottom, top,
+                     shape.Get(&Shape::least_slope), length, reach, on_face, which);
   };
-  CrossingLanes<D> cap = clip(enters);
+  const CrossingLanes<D> cap = cut(enters);
   const auto zero = hn::Zero(d);
 
   // Step 1: q is expanded where the line is nearest to the axis between the caps (RevolvedQuadric::find_window), or at
@@ -58,7 +55,7 @@ HWY_INLINE CrossingLanes<D> RevolvedCrossing(D d, const RayLanes<D>& ray, const 
   auto at = zero;
   Vec3Lanes<D> p = o;
   if (on_face != side) {
-    const auto other = clip(hn::Not(enters)).t;
+    const auto other = cut(hn::Not(enters)).t;
     const auto first = hn::IfThenElse(enters, cap.t, other), last = hn::IfThenElse(enters, other, cap.t);
     const auto square = hn::Add(hn::Mul(v.x, v.x), hn::Mul(v.y, v.y));
     const auto nearest = hn::Div(hn::Neg(hn::Add(hn::Mul(o.x, v.x), hn::Mul(o.y, v.y))), square);
@@ -88,21 +85,17 @@ HWY_INLINE CrossingLanes<D> RevolvedCrossing(D d, const RayLanes<D>& ray, const 
     const auto c_across = hn::Add(hn::Mul(p.x, p.x), hn::Mul(p.y, p.y));
     const auto c =
         hn::Sub(hn::Sub(hn::Sub(c_across, hn::Mul(w, w)), hn::Mul(linear, p.z)), shape.Get(&Shape::constant));
-    const auto discriminant = hn::Sub(hn::Mul(b, b), hn::Mul(a, c));
-    const auto graze = hn::Mul(shape.Get(&Shape::graze), ray.square);
-    real = hn::Gt(discriminant, graze);
-    unsure = hn::Or(unsure, hn::Not(hn::Or(hn::Lt(discriminant, hn::Neg(graze)), real)));
-    const auto width = hn::Sqrt(hn::Max(discriminant, graze));
-    const auto sum = hn::IfThenElse(hn::Ge(b, zero), hn::Neg(hn::Add(b, width)), hn::Sub(width, b));
-    const auto far = hn::Div(sum, a), near = hn::Div(c, sum);
-    t = hn::Add(hn::IfThenElse(takes_first, hn::Min(far, near), hn::Max(far, near)), at);
+    const RootsLanes<D> roots = FindRoots(d, a, b, c, hn::Mul(shape.Get(&Shape::graze), ray.square));
+    real = roots.real;
+    unsure = roots.unsure;
+    t = hn::Add(hn::IfThenElse(takes_first, roots.first, roots.second), at);
   }
   // What is not settled is moved once more. A start is not.
   const auto place = MulAdd(t, v, o);
   const auto settled =
       hn::Gt(hn::Add(hn::Mul(place.x, place.x), hn::Mul(place.y, place.y)), shape.Get(&Shape::settled));
-  auto unsettled = hn::Not(settled);
-  if (on_face == side) unsettled = hn::And(unsettled, hn::Ne(t, zero));
+  const auto is_start = on_face == side ? hn::Eq(t, zero) : hn::Not(hn::Eq(zero, zero));
+  const auto unsettled = hn::Not(hn::Or(settled, is_start));
 
   // Step 4: the part within the side, or one of the two.
   const auto side_unsure = hn::Or(unsure, hn::And(real, unsettled));
@@ -122,7 +115,7 @@ HWY_INLINE CrossingLanes<D> RevolvedCrossing(D d, const RayLanes<D>& ray, const 
     end.t = hn::IfThenElse(steep, hn::IfThenElse(whole, of_cap.t, one.t), end.t);
     end.face = hn::IfThenElse(steep, hn::IfThenElse(whole, of_cap.face, one.face), end.face);
     end.hit = hn::Or(hn::And(keep, end.hit), hn::Or(hn::And(whole, cap.hit), hn::And(meets, one.hit)));
-    end.unsure = hn::Or(hn::Or(end.unsure, hn::And(steep, cap.unsure)), hn::And(meets, one.unsure));
+    end.unsure = hn::Or(end.unsure, hn::And(meets, one.unsure));
   }
   return end;
 }
