@@ -21,8 +21,9 @@ inline constexpr int picture_width = 640, picture_height = 480;
 /// The six scenes that every contender traces.
 const std::vector<std::string>& scene_names();
 
-/// Scenes for Tenon's structures alone: of several media, and of a part that is stored once.
-inline const std::vector<std::string> own_scenes = {"tumblers", "copies"};
+/// Scenes for Tenon's structures alone: of several media, of a part that is stored once, and of what OpenSCAD's users
+/// model.
+inline const std::vector<std::string> own_scenes = {"tumblers", "copies", "mount"};
 
 /// Reads a scene file. `definitions` as `tenon -D`.
 Result<BenchScene> read_scene(const std::string& path,

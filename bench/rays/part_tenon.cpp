@@ -117,7 +117,7 @@ Status run_structures(const PartOptions& options, Report& report) {
     groups.push_back({"scenes of files", options.files});
   } else {
     add("the six scenes", options.scenes);
-    if (options.scenes == scene_names()) add("media and copies", own_scenes);
+    if (options.scenes == scene_names()) add("media, copies and a model", own_scenes);
     if (options.against.empty()) groups.push_back({"OpenSCAD's examples", example_paths()});
   }
   std::vector<std::map<std::string, std::vector<double>>> ratios(groups.size());
