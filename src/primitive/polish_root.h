@@ -16,8 +16,8 @@ namespace tenon {
 /// ±2 b β as soon as 2 |b| β > error + |a| (|s| + β)². Since (|s| + β)² <= 2 s² + 2 β², and with |a| β <= |b| / 8,
 /// β = (error + 2 |a| s²) / (1.75 |b|) will do.
 ///
-/// @param quadric  has expand(ray, t, reach) and error_at(expansion, away), as RevolvedQuadric. Where it says that the
-///                 root is settled, if it says so, t stays where it is, in the interval.
+/// @param quadric  has expand(ray, t, reach) and error_at(expansion, away), as RevolvedQuadric. It may have
+///                 is_settled(expansion), too: where that is so, t stays where it is, and the interval around it.
 template <class Quadric>
 void polish_root(const Quadric& quadric, const LocalRay& ray, BoundedRoot& root) {
   const double away = std::max(root.hi - root.t, root.t - root.lo);

@@ -174,10 +174,11 @@ TEST(Cells, TellQuadricsOfRevolutionByThemselves) {
 
 TEST(Cells, TellPrismsAndPolyhedraByThemselves) {
   Draw draw(41);
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < 9; ++i) {
     SCOPED_TRACE(i);
     SceneBuilder b;
-    const int sides = 3 + 2 * i;
+    const bool is_prism = i % 2 == 0;
+    const int sides = i < 8 ? 3 + 2 * i : 39;
     Outline star{{{}, {}}};
     std::vector<Plane> planes{{{0, 0, 1}, 1}, {{0, 0, -2}, 1}};
     for (int k = 0; k < sides; ++k) {
@@ -187,13 +188,13 @@ TEST(Cells, TellPrismsAndPolyhedraByThemselves) {
       if (k < 3) star.loops[1].push_back({0.2 * (k % 2), 0.2 * (k / 2), 0});
       planes.push_back({draw.real(0.5, 2) * Vec3{c, s, draw.real(-0.3, 0.3)}, 0.8});
     }
-    const bool is_prism = i % 2 == 0;
     const SceneNodeId solid =
         is_prism ? b.primitive("prism", {star, 1.5, i % 4 == 0, 1.0}) : b.primitive("convex_polyhedron", {planes});
     const Vec3 turn = i < 4 ? Vec3{0, 0, 0} : Vec3{20.0 * i, 50, 0};
-    // What comes near to a corner, or starts on an arc and meets that again, is not told so.
+    // What comes near to a corner, or starts on an arc and meets that again, is not told so; nor what goes through a
+    // crowd of walls.
     const CsgTree tree = b.tree(b.rotate(turn, b.transform(Affine3::scale({1, 1.3, 0.8}), solid)));
-    expect_told_without_spans(tree, draw, is_prism ? 0.1 : 0.01);
+    expect_told_without_spans(tree, draw, i == 8 ? 0.5 : is_prism ? 0.1 : 0.01);
   }
 }
 

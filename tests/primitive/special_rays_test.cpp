@@ -191,7 +191,6 @@ TEST(SpecialRays, InAWallOfAPrismAreInside) {
   expect_chord(cross("prism", square, {0.5, 0, 0.5}, {1, 0, 0}, 2), -0.5, 0.5);
 }
 
-// The line runs along a short wall of a hole, whose plane goes on through all of the solid.
 // Where a line hardly moves over the plane of the outline, it is nearest to a place of it far beyond the caps.
 TEST(SpecialRays, AllButAlongTheAxisOfAPrismCrossNoArc) {
   const Outline circle{{{{1, 0, 1}, {-1, 0, 1}}}};
@@ -204,6 +203,7 @@ TEST(SpecialRays, AllButAlongTheAxisOfAPrismCrossNoArc) {
   }
 }
 
+// The line runs along a short wall of a hole, whose plane goes on through all of the solid.
 TEST(SpecialRays, InAWallOfATwistedPrismAreInDoubtThereAlone) {
   const Outline outline{{{{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, {{0.5, 0, 0}, {1, 0, 0}, {1, 0.25, 0}}}};
   const std::vector<FieldValue> prism{outline, 1.0, false, 90.0, 1.0, 1.0};

@@ -46,8 +46,9 @@ class Certainty {
   /// graze() for a solid of revolution, by the bound of RevolvedQuadric::error_at over its window. There |x, y| is at
   /// most 3.4 R and w at most 3.2 R (what is expanded at one end of the window reaches to the other, and a sixteenth
   /// beyond), so that all terms together are at most 22 R², and twice their root 9.4 R; |offset| + |slope z| is at most
-  /// 2 R. The end that is not within the scene is at most twice as far off as what the error of place is right for; of
-  /// that it is a small part, most of which is the origin's. None where the errors are not small against the solid.
+  /// 2 R. One end of the window may be twice as far off as the error of place is right for; that error is the origin's,
+  /// mostly, which is right for rays from far_origin, and so much more than the direction's. None where the errors are
+  /// not small against the solid.
   std::optional<double> graze_of(const RevolvedQuadric& q) const {
     const double R = q.greatest_radius, e = std::hypot(place_.x, place_.y), linear = std::fabs(q.linear) * place_.z;
     const double w = std::fabs(q.slope) * place_.z + gamma(5) * 2 * R;

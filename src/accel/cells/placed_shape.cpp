@@ -145,8 +145,9 @@ class Placer {
   // length 1. By least_across, 2 e / certain, that is less as soon as d exceeds certain times the stretch.
   ShapeRef add(const Leaf& leaf, const Prism& prism) {
     const std::vector<OutlineEdge>& edges = prism.edges();
-    // More of them take longer here than from their hierarchy (crossing_near).
-    constexpr std::size_t most_walls = 32;
+    // All are looked at here; the hierarchy that crossing_near() has is for more (by trial on text and OpenSCAD's
+    // surface_image).
+    constexpr std::size_t most_walls = 128;
     if (prism.scale != 1 || edges.size() > most_walls) return {ShapeKind::general, 0};
     double reach = 0;
     for (const OutlineEdge& edge : edges) {
