@@ -90,6 +90,7 @@ class BatchAnswers {
     std::uint64_t finished = 0;
     std::array<std::uint64_t, kinds> rest{};
     const std::uint64_t simple = Simple();
+    CallShapes(simple);
     for (std::size_t at = 0; at < rays_.count; at += double_lanes) {
       std::uint32_t left = static_cast<std::uint32_t>(simple >> at) & all_lanes;
       while (left != 0) {
@@ -108,6 +109,17 @@ class BatchAnswers {
       while (rest[kind] != 0) finished |= FinishSome(static_cast<ShapeKind>(kind), rest[kind], begin, sink);
     }
     return finished;
+  }
+
+  // Has the leaves that rays meet come to the cache.
+  void CallShapes(std::uint64_t rays) const {
+    const auto call_each = [&](const auto& call) {
+      for (std::uint64_t left = rays; left != 0; left &= left - 1) {
+        call(cells_.shapes.of_leaf[found_.leaf(static_cast<std::size_t>(std::countr_zero(left))).get()]);
+      }
+    };
+    call_each([](const ShapeRef& shape) { hwy::Prefetch(&shape); });
+    call_each([&](const ShapeRef& shape) { cells_.shapes.prefetch(shape); });
   }
 
   // Rays that meet one face, and do not start on that leaf.
@@ -181,7 +193,7 @@ class BatchAnswers {
     std::array<std::uint8_t, double_lanes> places;
     for (std::size_t lane = 0; lane < double_lanes; ++lane) places[lane] = static_cast<std::uint8_t>(at + lane);
     const auto take = [&](const double* values) { return hn::Load(d, values + at); };
-    const auto take_shape = [&]<class Shape>(const std::vector<Shape>& list) {
+    const auto take_shape = [&]<class Shape>(const HugePageVector<Shape>& list) {
       return SharedShape<D, Shape>(list[shape.index()]);
     };
     return Complete(shape.kind(), take, take_shape, places, lanes, begin, sink);
@@ -206,7 +218,7 @@ class BatchAnswers {
     const auto take = [&](const double* values) {
       return TakeEach(d, [&](std::size_t lane) { return values[places[lane]]; });
     };
-    const auto take_shapes = [&]<class Shape>(const std::vector<Shape>& list) {
+    const auto take_shapes = [&]<class Shape>(const HugePageVector<Shape>& list) {
       LaneShapes<D, Shape> shapes;
       for (std::size_t lane = 0; lane < double_lanes; ++lane) {
         shapes.Put(lane, list[cells_.shapes.of_leaf[found_.leaf(places[lane]).get()].index()]);

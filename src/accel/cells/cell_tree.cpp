@@ -5,6 +5,7 @@
 
 #include "accel/cells/cell_build.h"
 #include "accel/cells/leaf_regions.h"
+#include "accel/cells/spatial_order.h"
 
 namespace tenon::cells {
 
@@ -24,8 +25,9 @@ CellTree CellTree::build(const CsgTree& tree, const Box3& box, const CellScale& 
     result.frame.high[a] = result.box.upper[axis];
     result.frame.center[a] = result.center[axis];
   }
-  result.records = LeafRecords::of(tree, result.scale, result.center);
-  result.shapes = PlacedShapes::of(tree, result.scale);
+  const std::vector<LeafId> order = spatial_order(tree, result.scale.reach);
+  result.records = LeafRecords::of(tree, result.scale, result.center, order);
+  result.shapes = PlacedShapes::of(tree, result.scale, order);
   const LeafRegions regions(tree, &result.records);
   BuiltCells built = build_cells(
       {tree, result.scale, result.records, regions, result.ranks, result.center, settings.quality, settings.limits},

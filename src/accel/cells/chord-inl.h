@@ -30,7 +30,7 @@ struct ChordLanes {
 template <class D>
 HWY_INLINE ChordLanes<D> FindChord(D d, const RayLanes<D>& ray, const PlacedShapes& shapes, ShapeRef shape, int on_face,
                                    double reach, hn::Vec<D> length) {
-  const auto take = [&]<class Shape>(const std::vector<Shape>& list) {
+  const auto take = [&]<class Shape>(const HugePageVector<Shape>& list) {
     return SharedShape<D, Shape>(list[shape.index()]);
   };
   const auto all = hn::Eq(length, length);

@@ -342,7 +342,7 @@ class ExactCell {
   // That of a leaf which plain arithmetic has found.
   HWY_INLINE CrossingLanes<One> OneCrossing(ShapeRef shape, int on_face, const CellAnswer& answer) const {
     const bool enters = answer.leaf_entering;
-    const auto take = [&]<class Shape>(const std::vector<Shape>& list) {
+    const auto take = [&]<class Shape>(const HugePageVector<Shape>& list) {
       return SharedShape<One, Shape>(list[shape.index()]);
     };
     if (shape.kind() == ShapeKind::torus) {

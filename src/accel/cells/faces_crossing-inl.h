@@ -38,7 +38,7 @@ HWY_INLINE void ClipHalfSpace(D d, hn::Vec<D> value, hn::Vec<D> slope, double fa
 
 /// Those of lanes with shapes of their own are not told.
 template <class D, class Lanes>
-HWY_INLINE CrossingLanes<D> ConvexCrossing(D d, const RayLanes<D>& ray, const std::vector<PlacedPlane>& planes,
+HWY_INLINE CrossingLanes<D> ConvexCrossing(D d, const RayLanes<D>& ray, std::span<const PlacedPlane> planes,
                                            const Lanes& lanes, int on_face, double reach, hn::Vec<D> length,
                                            hn::Mask<D> enters) {
   using Shape = typename Lanes::Shape;
@@ -222,7 +222,7 @@ class PrismCrossing {
 
 /// Those of lanes with shapes of their own are not told.
 template <class D, class Lanes>
-HWY_INLINE CrossingLanes<D> FindPrismCrossing(D d, const RayLanes<D>& ray, const std::vector<PlacedWall>& walls,
+HWY_INLINE CrossingLanes<D> FindPrismCrossing(D d, const RayLanes<D>& ray, std::span<const PlacedWall> walls,
                                               const Lanes& lanes, int on_face, double reach, hn::Vec<D> length,
                                               hn::Mask<D> enters, hn::Vec<D> about) {
   using Shape = typename Lanes::Shape;

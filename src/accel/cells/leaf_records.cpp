@@ -6,7 +6,6 @@
 
 #include "accel/cells/certainty.h"
 #include "accel/cells/planes_recorder.h"
-#include "accel/cells/spatial_order.h"
 #include "primitive/dispatch.h"
 #include "primitive/lists.h"
 
@@ -347,11 +346,12 @@ std::size_t LeafRecords::append(const std::vector<Line>& pieces) {
   return first;
 }
 
-LeafRecords LeafRecords::of(const CsgTree& tree, const CellScale& scale, const Vec3& center) {
+LeafRecords LeafRecords::of(const CsgTree& tree, const CellScale& scale, const Vec3& center,
+                            std::span<const LeafId> order) {
   LeafRecords records;
   records.of_leaf.resize(tree.leaves.size());
   Recorder recorder(tree, scale, center, records);
-  for (const LeafId leaf : spatial_order(tree, scale.reach)) records.of_leaf[leaf.get()] = recorder.record(tree[leaf]);
+  for (const LeafId leaf : order) records.of_leaf[leaf.get()] = recorder.record(tree[leaf]);
   // The first line is asked for where a leaf has no record, but not read.
   if (records.lines.empty()) records.lines.emplace_back();
   return records;

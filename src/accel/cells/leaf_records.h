@@ -3,6 +3,7 @@
 #include <array>
 #include <cassert>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "accel/cells/cell_scale.h"
@@ -200,7 +201,8 @@ struct LeafRecords {
   /// Has the records of pieces stand behind these. @return the index that is now of the first
   std::size_t append(const std::vector<Line>& pieces);
 
-  static LeafRecords of(const CsgTree& tree, const CellScale& scale, const Vec3& center);
+  /// @param order  all leaves, neighbours near to each other
+  static LeafRecords of(const CsgTree& tree, const CellScale& scale, const Vec3& center, std::span<const LeafId> order);
 };
 
 }  // namespace tenon::cells

@@ -199,11 +199,11 @@ class Placer {
 
 }  // namespace
 
-PlacedShapes PlacedShapes::of(const CsgTree& tree, const CellScale& scale) {
+PlacedShapes PlacedShapes::of(const CsgTree& tree, const CellScale& scale, std::span<const LeafId> order) {
   PlacedShapes shapes;
-  shapes.of_leaf.reserve(tree.leaves.size());
+  shapes.of_leaf.resize(tree.leaves.size());
   Placer placer(tree, scale, shapes);
-  for (const Leaf& leaf : tree.leaves) shapes.of_leaf.push_back(placer.place(leaf));
+  for (const LeafId leaf : order) shapes.of_leaf[leaf.get()] = placer.place(tree[leaf]);
   return shapes;
 }
 

@@ -1,13 +1,16 @@
 #pragma once
 
+#include <hwy/cache_control.h>
+
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <vector>
+#include <span>
 
 #include "accel/cells/cell_scale.h"
 #include "csg/csg_tree.h"
 #include "math/vec2.h"
+#include "tenon/base/huge_pages.h"
 
 namespace tenon::cells {
 
@@ -158,21 +161,50 @@ struct alignas(64) PlacedTorus {
 
 /// The leaves of a scene, ready for many rays.
 struct PlacedShapes {
-  std::vector<ShapeRef> of_leaf;  ///< by LeafId
-  std::vector<UprightSphere> upright_spheres;
-  std::vector<PlacedSphere> spheres;
-  std::vector<UprightBox> upright_boxes;
-  std::vector<PlacedBox> boxes;
-  std::vector<PlacedCylinder> cylinders;
-  std::vector<PlacedRevolved> revolved;
-  std::vector<PlacedConvex> convex;
-  std::vector<PlacedPlane> planes;
-  std::vector<PlacedPrism> prisms;
-  std::vector<PlacedWall> walls;
-  std::vector<PlacedTorus> tori;
+  HugePageVector<ShapeRef> of_leaf;  ///< by LeafId
+  HugePageVector<UprightSphere> upright_spheres;
+  HugePageVector<PlacedSphere> spheres;
+  HugePageVector<UprightBox> upright_boxes;
+  HugePageVector<PlacedBox> boxes;
+  HugePageVector<PlacedCylinder> cylinders;
+  HugePageVector<PlacedRevolved> revolved;
+  HugePageVector<PlacedConvex> convex;
+  HugePageVector<PlacedPlane> planes;
+  HugePageVector<PlacedPrism> prisms;
+  HugePageVector<PlacedWall> walls;
+  HugePageVector<PlacedTorus> tori;
 
-  static PlacedShapes of(const CsgTree& tree, const CellScale& scale);
+  /// @param order  as in LeafRecords::of()
+  static PlacedShapes of(const CsgTree& tree, const CellScale& scale, std::span<const LeafId> order);
   std::size_t memory_bytes() const;
+
+  /// Has a leaf of a kind that is mostly one of many come to the cache, for a ray that ends there.
+  void prefetch(ShapeRef shape) const {
+    const auto call = [&](const auto& list) {
+      const auto* const first = reinterpret_cast<const std::uint8_t*>(&list[shape.index()]);
+      for (std::size_t byte = 0; byte < sizeof(list[0]); byte += 64) hwy::Prefetch(first + byte);
+    };
+    switch (shape.kind()) {
+      case ShapeKind::sphere:
+        return call(spheres);
+      case ShapeKind::upright_sphere:
+        return call(upright_spheres);
+      case ShapeKind::box:
+        return call(boxes);
+      case ShapeKind::upright_box:
+        return call(upright_boxes);
+      case ShapeKind::cylinder:
+        return call(cylinders);
+      case ShapeKind::revolved:
+        return call(revolved);
+      case ShapeKind::torus:
+        return call(tori);
+      case ShapeKind::general:
+      case ShapeKind::prism:
+      case ShapeKind::convex:
+        break;
+    }
+  }
 };
 
 }  // namespace tenon::cells
