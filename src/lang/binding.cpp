@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "lang/expression_evaluator.h"
 #include "tenon/base/suggestion.h"
 
@@ -17,10 +19,11 @@ bool ExpressionEvaluator::set_variable(Symbol name, Value value, Scope& scope) {
 
 Ref<Scope> ExpressionEvaluator::bind_let(const std::vector<Argument>& bindings, Scope& scope) {
   const Ref<Scope> inner = make_ref<Scope>(environment_.scopes, Ref<Scope>(&scope));
-  for (const Argument& binding : bindings) {
+  for (auto at = bindings.begin(); at != bindings.end(); ++at) {
+    const Argument& binding = *at;
     Value value = evaluate(*binding.value, *inner);
     if (!binding.name) continue;
-    if (inner->find_here(binding.name)) {
+    if (std::any_of(bindings.begin(), at, [&](const Argument& before) { return before.name == binding.name; })) {
       environment_.warn(binding.at,
                         "'" + environment_.text(binding.name) + "' is set twice here; the second value is ignored");
     } else {

@@ -30,7 +30,11 @@ double tangent(double x) {
   const double c = std::fmod(b, 180.0);
   double t = 0;
   if (c == 0) {
-    t = 0;
+    t = b == 180 ? -0.0 : 0;
+    return a == -180 ? t : a < 0 ? -t : t;
+  }
+  if (c == 30 || c == 150) {
+    t = c == 30 ? std::numbers::sqrt3 / 3 : -std::numbers::sqrt3 / 3;
   } else if (c == 45 || c == 135) {
     t = c == 45 ? 1 : -1;
   } else if (c == 60 || c == 120) {
@@ -41,11 +45,11 @@ double tangent(double x) {
   return a < 0 ? -t : t;
 }
 
-// An angle next to a whole multiple of 15 degrees, where the sine of that multiple is the argument to within a
-// rounding, is that multiple: so asin(sqrt(3)/2) is 60.
+// An angle next to a whole number of degrees, where the sine of that is the argument to within a rounding, is that
+// number: so asin(sqrt(3)/2) is 60.
 template <class Function>
 double snapped(double angle, double argument, Function function) {
-  const double nearest = std::round(angle / 15) * 15;
+  const double nearest = std::round(angle);
   const double tolerance = std::numeric_limits<double>::epsilon();
   return std::fabs(function(nearest) - argument) <= tolerance * std::fabs(argument) ? nearest : angle;
 }
@@ -119,11 +123,35 @@ Value binary(const BuiltinCall& call) {
   return y ? Value(function(*x, *y)) : Value();
 }
 
-// Random numbers are made from the generator's 32-bit words here, because the standard distributions differ between
-// libraries.
+// Random numbers are those of OpenSCAD, which has them by std::uniform_real_distribution of GNU's library: two words of
+// the generator each, the second above the first. They are made here, for other libraries have others.
 double random_between(std::mt19937& generator, double low, double high) {
-  const double a = static_cast<double>(generator() >> 5), b = static_cast<double>(generator() >> 6);
-  return low + (high - low) * ((a * 0x1p26 + b) * 0x1p-53);
+  const auto below = static_cast<double>(generator()), above = static_cast<double>(generator());
+  const double share = (below + above * 0x1p32) * 0x1p-64;
+  return std::min(share, 1 - 0x1p-53) * (high - low) + low;
+}
+
+// The seed that OpenSCAD makes of a number: the number modulo the prime 2^31 - 1, where division by two is a
+// multiplication by 2^30. It is that of a whole number itself.
+std::uint32_t seed_of(double number) {
+  constexpr std::uint64_t prime = (std::uint64_t{1} << 31) - 1;
+  int exponent = 0;
+  double fraction = std::frexp(std::fabs(number), &exponent);
+  std::uint64_t seed = 0;
+  // Bits go in at the lower end, 28 at once.
+  constexpr int bits = 28;
+  while (fraction != 0) {
+    fraction = std::ldexp(fraction, bits);
+    const double whole = std::floor(fraction);
+    fraction -= whole;
+    seed = ((seed << bits) + static_cast<std::uint64_t>(whole)) % prime;
+    exponent -= bits;
+  }
+  constexpr int period = 31;
+  const int shift = (exponent % period + period) % period;
+  seed = (seed << shift) % prime;
+  const auto word = static_cast<std::uint32_t>(seed);
+  return number < 0 ? ~word + 1 : word;
 }
 
 Value random_numbers(const BuiltinCall& call) {
@@ -136,9 +164,9 @@ Value random_numbers(const BuiltinCall& call) {
     values[i] = *value;
   }
   const double low = std::min(values[0], values[1]), high = std::max(values[0], values[1]);
-  const bool seeded = call.arguments.size() == 4;
-  std::mt19937 own(static_cast<std::uint32_t>(std::hash<double>()(values[3])));
-  std::mt19937& generator = seeded ? own : call.environment.random;
+  std::mt19937& generator = call.environment.random;
+  // What is drawn later without a seed goes on from here.
+  if (call.arguments.size() == 4) generator.seed(seed_of(values[3]));
   ListBuilder list(call.environment.budget);
   const double count = std::fabs(std::trunc(values[2]));
   for (double i = 0; i < count; ++i) list.add(Value(random_between(generator, low, high)));

@@ -189,8 +189,7 @@ const Expression* Parser::function_literal(Place at) {
 const Expression* Parser::list_or_range() {
   const Token open = take();
   std::vector<const Expression*> elements;
-  while (accept(",")) {
-  }
+  accept_commas();
   while (!peek().is("]")) {
     const Expression* first = element();
     if (elements.empty() && accept(":")) {
@@ -201,9 +200,7 @@ const Expression* Parser::list_or_range() {
                    : make(open.at, RangeLiteral{first, nullptr, second});
     }
     elements.push_back(first);
-    if (!peek().is(",")) break;
-    while (accept(",")) {
-    }
+    if (!accept_commas()) break;
   }
   expect_closing("]", open);
   return make(open.at, ListLiteral{std::move(elements)});

@@ -8,6 +8,7 @@
 #include "lang/deep_stack.h"
 #include "lang/module_evaluator.h"
 #include "lang/parser.h"
+#include "mesh/load_mesh.h"
 
 namespace tenon {
 
@@ -19,6 +20,16 @@ std::string definitions_text(const LoadOptions& options) {
   std::string text;
   for (const auto& [name, value] : options.definitions) text += name + " = " + value + ";\n";
   return text;
+}
+
+// A mesh file is the scene of that mesh.
+std::string import_text(const std::string& file_name) {
+  std::string text = "import(\"";
+  for (const char c : file_name) {
+    if (c == '"' || c == '\\') text += '\\';
+    text += c;
+  }
+  return text + "\");\n";
 }
 
 // On the deep stack: everything that may recurse, the destruction of values included, begins and ends in here.
@@ -66,9 +77,12 @@ Result<Model> load(const std::function<const SourceText&(SourceFiles&)>& open, c
 }  // namespace
 
 Result<Model> load_model(const std::string& path, const LoadOptions& options, Diagnostics& diagnostics) {
-  Result<Model> model =
-      load([&](SourceFiles& files) -> const SourceText& { return files.read(path); }, options, diagnostics);
-  return model;
+  const std::filesystem::path file(path);
+  std::error_code ignored;
+  if (is_mesh_file(path) && std::filesystem::is_regular_file(file, ignored)) {
+    return load_model_text(import_text(file.filename().string()), path, options, diagnostics);
+  }
+  return load([&](SourceFiles& files) -> const SourceText& { return files.read(path); }, options, diagnostics);
 }
 
 Result<Model> load_model_text(const std::string& text, const std::string& name, const LoadOptions& options,

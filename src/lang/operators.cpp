@@ -76,9 +76,11 @@ Order compare(const Value& a, const Value& b) {
   if (a.list() && b.list()) return compare_lists(*a.list(), *b.list());
   if (a.range() && b.range()) {
     const Range &r = *a.range(), &s = *b.range();
+    // As the lists of their numbers.
+    if (r.size() == 0 || s.size() == 0) return compare_plain(r.size(), s.size());
     if (const Order o = compare_plain(r.begin, s.begin); o != Order::equal) return o;
     if (const Order o = compare_plain(r.step, s.step); o != Order::equal) return o;
-    return compare_plain(r.end, s.end);
+    return compare_plain(r.size(), s.size());
   }
   return Order::undefined;
 }

@@ -2,11 +2,22 @@
 
 #include <filesystem>
 
+#include "base/input_file.h"
 #include "lang/deep_stack.h"
 #include "lang/failure.h"
 #include "lang/parser_state.h"
+#include "text/find_font.h"
 
 namespace tenon::lang {
+
+namespace {
+
+bool is_font(const std::string& path) {
+  const std::string ending = ending_of(path);
+  return ending == ".ttf" || ending == ".otf" || ending == ".ttc";
+}
+
+}  // namespace
 
 Unit& parse_unit(const SourceText& source, const SourceText* definitions, ParseContext& context) {
   Unit& unit = context.ast.units.emplace_back();
@@ -105,6 +116,10 @@ void Parser::use_statement() {
   accept(";");
   if (is_builtin_library(token.string)) return;
   const std::string path = SourceFiles::find(token.string, token.at);
+  if (is_font(path)) {
+    if (const Status added = add_font_file(path); !added) fail(token.at, added.error().message);
+    return;
+  }
   std::error_code unknown;
   std::string key = std::filesystem::weakly_canonical(path, unknown).string();
   if (unknown) key = path;
@@ -260,9 +275,16 @@ std::vector<Argument> Parser::arguments_until(std::string_view closing) {
       argument.value = expression();
     }
     list.push_back(argument);
-    if (!accept(",")) break;
+    if (!accept_commas()) break;
   }
   return list;
+}
+
+// As many as there are: OpenSCAD passes over those that nothing stands between.
+bool Parser::accept_commas() {
+  if (!accept(",")) return false;
+  while (accept(",")) continue;
+  return true;
 }
 
 std::vector<Parameter> Parser::parameters() {

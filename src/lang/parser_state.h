@@ -28,6 +28,7 @@ class Parser {
   Token take() { return tokens_.take(); }
   bool accept(std::string_view symbol);
   bool accept(TokenKind kind);
+  bool accept_commas();
   Token expect(std::string_view symbol, std::string_view why);
   Token expect_closing(std::string_view symbol, const Token& opening);
   [[noreturn]] void unexpected(std::string_view wanted) const;

@@ -63,7 +63,8 @@ bool equal(const Value& a, const Value& b) {
   if (const String* s = a.string()) return s->text() == b.string()->text();
   if (const Range* r = a.range()) {
     const Range* o = b.range();
-    return r->begin == o->begin && r->step == o->step && r->end == o->end;
+    // As the lists of their numbers.
+    return r->size() == o->size() && (r->size() == 0 || (r->begin == o->begin && r->step == o->step));
   }
   if (const List* l = a.list()) return std::ranges::equal(l->items(), b.list()->items(), equal);
   if (const Closure* c = a.closure()) return c == b.closure();

@@ -32,6 +32,10 @@ Result<BuiltMesh> build_from(const MeshFile& file, const Result<PolygonSoup>& so
 
 }  // namespace
 
+bool is_mesh_file(const std::string& path) {
+  return find_reader(path) != nullptr;
+}
+
 Result<BuiltMesh> parse_mesh(const MeshFile& file, bool hull) {
   const Reader read = find_reader(file.path);
   if (read == nullptr) return not_readable(file.path);

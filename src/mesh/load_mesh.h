@@ -5,6 +5,9 @@
 
 namespace tenon {
 
+/// Whether a file is a mesh that load_mesh() reads, by the ending of its name.
+bool is_mesh_file(const std::string& path);
+
 /// Reads a mesh file: STL, OBJ, OFF, PLY or 3MF, by the ending of its name.
 ///
 /// @param hull  see build_mesh()

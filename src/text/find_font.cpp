@@ -3,6 +3,8 @@
 #include <fontconfig/fontconfig.h>
 
 #include <memory>
+#include <mutex>
+#include <set>
 
 namespace tenon {
 
@@ -29,6 +31,19 @@ bool is_of_family(const Pattern& font, const std::string& family) {
 }
 
 }  // namespace
+
+Status add_font_file(const std::string& path) {
+  // What is added twice stands there twice, for as long as the program runs: a scene may be read again and again.
+  static std::mutex mutex;
+  static std::set<std::string> added;
+  const std::lock_guard lock(mutex);
+  if (added.contains(path)) return success();
+  if (!FcInit() || !FcConfigAppFontAddFile(nullptr, reinterpret_cast<const FcChar8*>(path.c_str()))) {
+    return Error{ErrorKind::input, "'" + path + "' is no font; give a .ttf or .otf file", {}};
+  }
+  added.insert(path);
+  return success();
+}
 
 Result<FontFile> find_font(const std::string& text) {
   const Error none{ErrorKind::machine, "no font is installed; on Debian, install fonts-liberation", {}};

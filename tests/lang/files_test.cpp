@@ -17,6 +17,19 @@ TEST_F(FilesTest, WhatAFileMakesIsStoredOnceAndPrintedByItsName) {
   EXPECT_EQ(twice.model->graph.primitives.size(), 2u);
 }
 
+TEST_F(FilesTest, AMeshFileIsTheSceneOfThatMesh) {
+  write("a \"b\".off", "OFF 4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+  Diagnostics diagnostics;
+  const Result<Model> model = load_model((folder / "a \"b\".off").string(), {}, diagnostics);
+  ASSERT_TRUE(model) << format_error(model.error());
+  EXPECT_EQ(print_csg(*model).find("import(file = "), 0u) << print_csg(*model);
+  const Result<Model> none = load_model((folder / "none.off").string(), {}, diagnostics);
+  ASSERT_FALSE(none);
+  EXPECT_NE(format_error(none.error()).find("there is no file"), std::string::npos) << format_error(none.error());
+  write("bad.off", "OFF 1 1 0\n0 0 0\n3 0 1 2\n");
+  EXPECT_FALSE(load_model((folder / "bad.off").string(), {}, diagnostics));
+}
+
 TEST_F(FilesTest, TheStructureWithinAMeshIsChosenByName) {
   write("t.off", "OFF 4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
   const std::string mesh = (folder / "t.off").string();

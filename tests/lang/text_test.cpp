@@ -1,4 +1,4 @@
-#include "lang/language.h"
+#include "lang/files_folder.h"
 
 namespace tenon {
 namespace {
@@ -13,6 +13,21 @@ TEST(Text, IsAShapeOfThePlane) {
   EXPECT_EQ(tree_of("linear_extrude(1) text(str(1.5));"), tree_of("linear_extrude(1) text(\"1.5\");"));
   // Arcs, unless facets are asked for.
   EXPECT_NE(tree_of("linear_extrude(1) text(\"O\");"), tree_of("linear_extrude(1) text(\"O\", $fn = 8);"));
+}
+
+class FontFileTest : public FilesTest {};
+
+TEST_F(FontFileTest, IsUsedLikeALibrary) {
+  const std::string file = "/usr/share/fonts/truetype/liberation/LiberationMono-Bold.ttf";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "install Debian's fonts-liberation to run this";
+  std::filesystem::copy_file(file, folder / "own.TTF");
+  const std::string letter = "linear_extrude(1) text(\"A\", font = \"Liberation Mono:style=Bold\");";
+  const std::string use = "use <" + (folder / "own.TTF").string() + ">\n";
+  EXPECT_EQ(tree_of(use + letter), tree_of(letter));
+  EXPECT_EQ(warnings_of(use + use + letter), "");
+  write("none.ttf", "no font");
+  EXPECT_NE(error_of("use <" + (folder / "none.ttf").string() + ">\ncube();").find("none.ttf' is no font"),
+            std::string::npos);
 }
 
 TEST(Text, SaysWhatItDoesNotKnow) {

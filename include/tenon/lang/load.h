@@ -29,7 +29,7 @@ struct LoadOptions {
 };
 
 /// Evaluates a scene file.
-/// @param path         the file; "-" reads standard input
+/// @param path         the file, of a scene or of a mesh; "-" reads standard input
 /// @param options      see LoadOptions
 /// @param diagnostics  receives warnings and the lines of `echo`
 /// @return the model, or the first error with its place
