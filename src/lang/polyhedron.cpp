@@ -61,7 +61,7 @@ class PlaneFinder {
       const std::optional<Plane> plane = plane_of_face(f);
       if (!plane) continue;  // without area, and so without a side of its own
       if (!lies_in(f, *plane)) {
-        return BadPolyhedron{"face " + std::to_string(f) + " of the polyhedron is not flat; split it into triangles"};
+        return BadPolyhedron{"face " + std::to_string(f) + " of the polyhedron is not flat", false, true};
       }
       plane_of[f] = planes_.size();
       planes_.push_back(*plane);
@@ -125,8 +125,6 @@ class PlaneFinder {
   std::vector<Plane> planes_;
 };
 
-constexpr std::size_t most_planes = 32;
-
 Solid mesh_solid(ModuleEvaluator& evaluator, const std::vector<Vec3>& points, const std::vector<Face>& faces,
                  Place at) {
   PolygonSoup soup;
@@ -177,7 +175,6 @@ Solid polyhedron_solid(ModuleEvaluator& evaluator, const std::vector<Vec3>& poin
   auto result = planes_of(points, faces);
   const auto* planes = std::get_if<0>(&result);
   const bool is_general = !planes && std::get<1>(result).is_general;
-  // The time of every ray grows with the number of planes, of a mesh's with its logarithm.
   if (is_general || (planes && planes->size() > most_planes)) return mesh_solid(evaluator, points, faces, at);
   if (const auto* bad = std::get_if<BadPolyhedron>(&result)) {
     if (!bad->empty) fail(at, bad->message);

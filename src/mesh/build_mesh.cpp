@@ -85,7 +85,7 @@ class MeshBuilder {
     if (smooth) mesh().normals = soup_.normals;
     std::vector<Corners> pieces;
     std::vector<std::uint32_t> places;
-    std::size_t without_area = 0;
+    std::size_t without_area = 0, bent = 0;
     for (std::size_t f = 0; f < soup_.face_count(); ++f) {
       const auto face = soup_.face(f);
       if (face.size() > most_corners) {
@@ -101,11 +101,7 @@ class MeshBuilder {
       for (const std::uint32_t corner : face) corners.push_back(soup_.points[corner]);
       pieces.clear();
       const double deviation = triangulate(places, corners, pieces);
-      if (deviation > flatness) {
-        return Error{ErrorKind::input,
-                     "face " + std::to_string(f) + " of " + what_ + " is not flat; split it into triangles",
-                     {}};
-      }
+      if (deviation > flatness) ++bent;
       for (const Corners& piece : pieces) {
         Corners triangle, normals;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -122,6 +118,11 @@ class MeshBuilder {
       }
     }
     if (smooth) fill_missing_normals();
+    if (bent > 0) {
+      built_.notes.push_back(what_ + " has " + std::to_string(bent) +
+                             (bent == 1 ? " face that is" : " faces that are") +
+                             " not flat; it depends on how they are cut into triangles");
+    }
     if (without_area > 0) note(without_area, "without area; they are left out");
     return success();
   }

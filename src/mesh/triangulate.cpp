@@ -18,14 +18,16 @@ double area(const Point2& a, const Point2& b, const Point2& c) {
 /// A polygon seen along its normal, whose ears are cut off one by one.
 class EarClipper {
  public:
-  EarClipper(std::vector<Point2> points) : points_(std::move(points)), ring_(points_.size()) {
+  /// @param first  the corner that is tried first
+  EarClipper(std::vector<Point2> points, std::size_t first)
+      : points_(std::move(points)), ring_(points_.size()), first_(first) {
     for (std::size_t i = 0; i < ring_.size(); ++i) ring_[i] = i;
   }
 
   // emit(a, b, c) with places in the polygon.
   template <class Emit>
   void clip(Emit&& emit) {
-    std::size_t i = 0, without_ear = 0;
+    std::size_t i = first_, without_ear = 0;
     while (ring_.size() > 3) {
       // The best that can be done with a polygon that crosses itself is to cut somewhere; its solid will tell.
       const bool give_up = without_ear > ring_.size();
@@ -61,6 +63,7 @@ class EarClipper {
 
   std::vector<Point2> points_;
   std::vector<std::size_t> ring_;
+  std::size_t first_;
 };
 
 }  // namespace
@@ -91,7 +94,13 @@ double triangulate(std::span<const std::uint32_t> corners, const std::vector<Vec
     flat.push_back({p[x], p[y]});
     deviation = std::max(deviation, std::fabs(dot(n, p - origin)));
   }
-  EarClipper(std::move(flat)).clip([&](std::size_t a, std::size_t b, std::size_t c) {
+  // A quadrilateral may be bent: the shorter diagonal keeps nearer to it, as a rule.
+  std::size_t first = 0;
+  if (corners.size() == 4) {
+    const auto diagonal = [&](std::size_t i) { return length(points[corners[i + 2]] - points[corners[i]]); };
+    first = diagonal(0) <= diagonal(1) ? 1 : 0;
+  }
+  EarClipper(std::move(flat), first).clip([&](std::size_t a, std::size_t b, std::size_t c) {
     out.push_back({corners[a], corners[b], corners[c]});
   });
   return largest > 0 ? deviation / largest : 0;

@@ -9,8 +9,8 @@
 
 namespace tenon {
 
-/// Cuts a flat polygon, which need not be convex, into triangles by clipping ears (Meisters, "Polygons have ears",
-/// 1975). Corners in a row on one line are kept, so that the edges are those of the polygon.
+/// Cuts a polygon, which need not be convex, into triangles, as if it were flat, by clipping ears (Meisters, "Polygons
+/// have ears", 1975). Corners in a row on one line are kept, so that the edges are those of the polygon.
 ///
 /// @param corners  into `points`; at least three
 /// @param out      receives one triangle less than two corners, oriented as the polygon is
