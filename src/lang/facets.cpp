@@ -55,24 +55,31 @@ std::vector<Plane> faceted_cone(double h, double r1, double r2, double bottom, i
   return planes;
 }
 
-std::vector<Plane> faceted_sphere(double r, int facets) {
-  std::vector<Plane> planes;
+std::vector<Vec2> sphere_profile(double r, int facets) {
+  std::vector<Vec2> profile;
   const int rings = (facets + 1) / 2;
+  for (int ring = rings; ring-- > 0;) {
+    const double polar = 180.0 * (ring + 0.5) / rings;
+    profile.push_back({r * sin_degrees(polar), r * cos_degrees(polar)});
+  }
+  return profile;
+}
+
+std::vector<Plane> faceted_sphere(double r, int facets) {
+  const std::vector<Vec2> profile = sphere_profile(r, facets);
   const double step = 360.0 / facets;
   const double inward = cos_degrees(step / 2);
-  const auto polar = [&](int ring) { return 180.0 * (ring + 0.5) / rings; };
-  const double top = r * cos_degrees(polar(0));
-  planes.push_back({{0, 0, 1}, top});
-  for (int ring = 0; ring + 1 < rings; ++ring) {
-    const double z1 = r * cos_degrees(polar(ring)), z2 = r * cos_degrees(polar(ring + 1));
-    const double a1 = r * sin_degrees(polar(ring)) * inward, a2 = r * sin_degrees(polar(ring + 1)) * inward;
+  std::vector<Plane> planes{{{0, 0, -1}, -profile.front().y}, {{0, 0, 1}, profile.back().y}};
+  for (std::size_t ring = 0; ring + 1 < profile.size(); ++ring) {
+    const auto [x1, z1] = profile[ring];
+    const auto [x2, z2] = profile[ring + 1];
+    const double a1 = x1 * inward, a2 = x2 * inward;
     for (int i = 0; i < facets; ++i) {
       const double angle = (i + 0.5) * step;
-      const Vec3 normal{(z1 - z2) * cos_degrees(angle), (z1 - z2) * sin_degrees(angle), a2 - a1};
-      planes.push_back({normal, (z1 - z2) * a1 + (a2 - a1) * z1});
+      const Vec3 normal{(z2 - z1) * cos_degrees(angle), (z2 - z1) * sin_degrees(angle), a1 - a2};
+      planes.push_back({normal, (z2 - z1) * a1 + (a1 - a2) * z1});
     }
   }
-  planes.push_back({{0, 0, -1}, top});
   return planes;
 }
 

@@ -170,16 +170,17 @@ std::optional<Solid> linear_extrude(ModuleCall& call) {
 std::optional<Solid> rotate_extrude(ModuleCall& call) {
   constexpr std::string_view names[] = {"angle", "convexity", "file", "layer", "origin", "scale"};
   const ModuleArguments arguments(call, names, UnknownArgument::warn);
-  const double angle = number_argument(call, arguments, 0, "angle").value_or(360);
+  double angle = number_argument(call, arguments, 0, "angle").value_or(360);
   const Solid shape = extruded_shape(call, arguments, 2);
   if (shape.is_nothing()) return shape;
-  if (angle == 0 || !std::isfinite(angle)) {
-    call.evaluator.environment().warn(call.at(),
-                                      "rotate_extrude() with angle = " + format_number(angle) + " has no volume");
+  if (angle == 0) {
+    call.evaluator.environment().warn(call.at(), "rotate_extrude() with angle = 0 has no volume");
     return Solid::nothing();
   }
-  if (facet_count(call.evaluator, 1) > 0) {
-    call.evaluator.environment().warn(call.at(), "rotate_extrude() is round here; facets of it are not supported yet");
+  if (!std::isfinite(angle)) {
+    call.evaluator.environment().warn(arguments.at(0),
+                                      "rotate_extrude() goes all around with angle = " + format_number(angle));
+    angle = 360;
   }
   return turned(call.evaluator, shape, angle, call.at());
 }

@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "csg/tolerance.h"
+#include "lang/facets.h"
 #include "lang/flat_outline.h"
+#include "lang/turned_facets.h"
 #include "plane/mapped_outline.h"
 #include "primitive/arc.h"
 #include "primitive/outline_edges.h"
@@ -114,6 +116,9 @@ class Turner {
  public:
   Turner(ModuleEvaluator& evaluator, Place at) : evaluator_(evaluator), at_(at) {}
 
+  /// Has it turned in facets, but where it has arcs. @param angles  see turned_in_facets()
+  void set_facets(std::vector<double> angles) { angles_ = std::move(angles); }
+
   /// @param map  of the shape into the plane of the axis
   Solid rebuild(SceneNodeId id, const Affine3& map, bool may_cross_axis) {
     evaluator_.expressions().check_depth(at_);
@@ -188,6 +193,11 @@ class Turner {
       if (outline.loops.empty()) return Solid::nothing();
     }
     SceneBuilder& builder = evaluator_.builder();
+    if (!angles_.empty()) {
+      if (!has_arcs(outline)) return turned_in_facets(evaluator_, outline, angles_, at_);
+      evaluator_.environment().warn(at_,
+                                    "rotate_extrude() is round here, for the shape has arcs; give that few facets");
+    }
     if (const auto circle = whole_circle(outline, same_place()); circle && circle->radius <= circle->center.x) {
       const Result<PrimitiveId> torus = builder.model().graph.primitives.add(
           *PrimitiveStore::find_kind("torus"), std::vector<FieldValue>{circle->center.x, circle->radius});
@@ -203,6 +213,7 @@ class Turner {
 
   ModuleEvaluator& evaluator_;
   Place at_;
+  std::vector<double> angles_;  // of facets, if there are
   double right_ = -HUGE_VAL, left_ = -HUGE_VAL, high_ = 0;
   bool warned_ = false;
 };
@@ -228,6 +239,13 @@ Solid turned(ModuleEvaluator& evaluator, const Solid& shape, double degrees, Pla
   turner.survey(shape.node, {});
   const bool mirrored = turner.right() <= turner.same_place() && turner.left() > turner.same_place();
   const Affine3 map = mirrored ? Affine3::scale({-1, 1, 1}) : Affine3();
+  if (const int facets = facet_count(evaluator, std::max(turner.right(), turner.left())); facets > 0) {
+    const double part = std::min(std::fabs(degrees) / 360, 1.0);
+    std::vector<double> angles = facet_angles(static_cast<int>(facets * part), degrees);
+    // The mirror image stands on the other side of the axis.
+    if (mirrored && part == 1) std::ranges::for_each(angles, [](double& angle) { angle += 180; });
+    turner.set_facets(std::move(angles));
+  }
   const Solid round = turner.rebuild(shape.node, map, false);
   if (std::fabs(degrees) >= 360 || round.is_nothing()) return round;
   const double radius = std::max(turner.right(), turner.left()), height = turner.high() + radius;
