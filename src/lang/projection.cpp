@@ -133,6 +133,50 @@ Outline slice_of_sphere(double r, const Affine3& map) {
   return mapped({{full_circle({{0, 0}, 1}, 1)}}, of_circle);
 }
 
+/// An outline swept along z while it turns clockwise, by degrees, and is scaled.
+struct Sweep {
+  Outline outline;
+  double low = 0, high = 0;
+  double twist = 0;
+  Vec2 from{1, 1}, to{1, 1};
+};
+
+std::optional<Sweep> sweep_of(const UnionLeaf& leaf) {
+  const auto number = [&](std::size_t i) { return std::get<double>(leaf.values[i]); };
+  Sweep sweep;
+  const auto set_height = [&](double h, std::size_t center) {
+    sweep.low = std::get<bool>(leaf.values[center]) ? -h / 2 : 0;
+    sweep.high = sweep.low + h;
+  };
+  if (leaf.kind == "prism" || leaf.kind == "twisted_prism") {
+    sweep.outline = std::get<Outline>(leaf.values[0]);
+    set_height(number(1), 2);
+    const bool turns = leaf.kind == "twisted_prism";
+    sweep.twist = turns ? number(3) : 0;
+    sweep.to = turns ? Vec2{number(4), number(5)} : Vec2{number(3), number(3)};
+    return sweep;
+  }
+  if (leaf.kind != "cone") return std::nullopt;
+  sweep.outline.loops = {full_circle({{0, 0}, 1}, 1)};
+  set_height(number(0), 3);
+  sweep.from = {number(1), number(1)};
+  sweep.to = {number(2), number(2)};
+  return sweep;
+}
+
+// One whose axis stays along z. As for straight ones, what lies lower counts of both ends.
+std::optional<Shape> slice_of_sweep(const Sweep& sweep, const Affine3& map) {
+  const auto inverse = map.inverse();
+  if (!inverse || !keeps_z_axis(map)) return std::nullopt;
+  const double share = (inverse->translation().z - sweep.low) / (sweep.high - sweep.low);
+  const bool meets = map.m[2][2] > 0 ? share >= 0 && share < 1 : share > 0 && share <= 1;
+  const Vec2 scale = sweep.from + share * (sweep.to - sweep.from);
+  if (!meets || scale.x == 0 || scale.y == 0) return Shape{};
+  const double c = cos_degrees(-sweep.twist * share), s = sin_degrees(-sweep.twist * share);
+  const Affine3 here{{{{scale.x * c, -scale.x * s, 0, 0}, {scale.y * s, scale.y * c, 0, 0}, {0, 0, 1, 0}}}};
+  return Shape::of(mapped(sweep.outline, map * here));
+}
+
 std::optional<Shape> slice_of_leaf(const UnionLeaf& leaf) {
   if (leaf.kind == "sphere") return Shape::of(slice_of_sphere(std::get<double>(leaf.values[0]), leaf.map));
   if (const auto extrusion = extrusion_of(leaf)) {
@@ -140,6 +184,9 @@ std::optional<Shape> slice_of_leaf(const UnionLeaf& leaf) {
       const bool meets = aligned->low <= 0 && aligned->high > 0;
       return meets ? Shape::of(aligned->outline) : Shape{};
     }
+  }
+  if (const auto sweep = sweep_of(leaf)) {
+    if (auto slice = slice_of_sweep(*sweep, leaf.map)) return slice;
   }
   const auto facets = facets_of(leaf);
   if (!facets) return std::nullopt;

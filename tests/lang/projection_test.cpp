@@ -1,4 +1,6 @@
 // projection() of solids, against what is known of them.
+#include <algorithm>
+
 #include "lang/language.h"
 #include "primitive/arc.h"
 #include "primitive/outline_edges.h"
@@ -52,6 +54,37 @@ TEST(CutProjection, IsExactOfSpheresPolyhedraAndExtrusions) {
   EXPECT_NEAR(area_of(outline_of("projection(cut = true) polyhedron([[0, 0, -1], [4, 0, -1], [0, 4, -1], [0, 0, 3]], "
                                  "[[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]);")),
               0.5 * 9, 1e-9);
+}
+
+TEST(CutProjection, IsExactOfWhatIsScaledOrTurnedOnItsWayUp) {
+  EXPECT_NEAR(area_of(outline_of("projection(cut = true) translate([0, 0, -3]) cylinder(h = 4, r1 = 4, r2 = 0);")), pi,
+              1e-12);
+  EXPECT_NEAR(area_of(outline_of("projection(cut = true) translate([0, 0, 3]) rotate([180, 0, 0]) cylinder(h = 4, r1 = "
+                                 "0, r2 = 4);")),
+              9 * pi, 1e-9);
+  EXPECT_NEAR(area_of(outline_of("projection(cut = true) translate([0, 0, -1]) linear_extrude(2, scale = 0.5) "
+                                 "square([4, 6]);")),
+              24 * 0.75 * 0.75, 1e-12);
+  EXPECT_NEAR(area_of(outline_of("projection(cut = true) translate([7, 0, -1]) linear_extrude(4, scale = [0.2, 3], "
+                                 "twist = 77) translate([1, 2]) circle(2);")),
+              4 * pi * 0.8 * 1.5, 1e-5);
+  // A quarter of the way up a square has turned clockwise by a quarter of 180 degrees.
+  const Outline turned = outline_of(
+      "projection(cut = true) translate([0, 0, -1]) linear_extrude(4, twist = 180) "
+      "square(2);");
+  ASSERT_EQ(turned.loops.size(), 1u);
+  const auto& loop = turned.loops.front();
+  const auto far = std::max_element(loop.begin(), loop.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+  EXPECT_NEAR(far->x, std::sqrt(8.0), 1e-12);
+  EXPECT_NEAR(far->y, 0, 1e-12);
+  // The end that lies lower counts.
+  EXPECT_NEAR(area_of(outline_of("projection(cut = true) linear_extrude(2, scale = 0.5) square(2);")), 4, 1e-12);
+  EXPECT_NEAR(area_of(outline_of("projection(cut = true) mirror([0, 0, 1]) translate([0, 0, -2]) linear_extrude(2, "
+                                 "scale = 0.5) square(2);")),
+              1, 1e-12);
+  EXPECT_EQ(tree_of("linear_extrude(1) projection(cut = true) mirror([0, 0, 1]) linear_extrude(2, twist = 9) square(2);"
+                    "cube();"),
+            tree_of("cube();"));
 }
 
 TEST(CutProjection, OfAFaceInThePlaneCountsAboveIt) {
