@@ -45,6 +45,11 @@ class Face {
     if (FT_New_Face(library, file.path.c_str(), file.index, &outlines)) return std::nullopt;
     face.outlines_.reset(outlines);
     if (!FT_IS_SCALABLE(outlines) || outlines->units_per_EM == 0) return std::nullopt;
+    // FreeType chooses Unicode where the font has it; fonts of symbols have their own codes for the letters.
+    if (outlines->charmap == nullptr && FT_Select_Charmap(outlines, FT_ENCODING_MS_SYMBOL) != 0 &&
+        outlines->num_charmaps > 0) {
+      FT_Set_Charmap(outlines, outlines->charmaps[0]);
+    }
     if (FT_Set_Pixel_Sizes(outlines, 0, outlines->units_per_EM)) return std::nullopt;
     face.shapes_.reset(hb_ft_font_create_referenced(outlines));
     hb_ft_font_set_load_flags(face.shapes_.get(), FT_LOAD_NO_HINTING);

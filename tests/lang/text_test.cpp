@@ -30,6 +30,14 @@ TEST_F(FontFileTest, IsUsedLikeALibrary) {
             std::string::npos);
 }
 
+// Its letters have codes of their own, and no Unicode.
+TEST_F(FontFileTest, MayBeOneOfSymbols) {
+  const std::string file = "/usr/share/openscad/testdata/ttf/marvosym-3.10/marvosym.ttf";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "install Debian's openscad-testing-data to run this";
+  const std::string tree = tree_of("use <" + file + ">\nlinear_extrude(1) text(\"a1\", font = \"MarVoSym\");");
+  EXPECT_NE(tree.find("prism(outline = [[["), tree.rfind("prism(outline = [[[")) << tree;
+}
+
 TEST(Text, SaysWhatItDoesNotKnow) {
   EXPECT_NE(warnings_of("linear_extrude(1) text(\"A\", font = \"No Such Family\");").find("stands in for it"),
             std::string::npos);
