@@ -41,6 +41,9 @@ class WedgeSearch {
   std::optional<Wedge> find() {
     for (std::size_t i = 0; i < count_; ++i) {
       if (!(walls_[i].length > 0) || (count_ > 1 && !find_side(walls_[i]))) return std::nullopt;
+      for (std::size_t k = 0; k < i; ++k) {
+        if (lies_along(walls_[k], walls_[i])) return std::nullopt;
+      }
     }
     const Vec2 place = clear_point();
     if (!(clearance(place) > slip_)) return std::nullopt;
@@ -70,6 +73,13 @@ class WedgeSearch {
     if (least < -slip_ && most > slip_) return false;
     wall.side = most > slip_ ? 1 : least < -slip_ ? -1 : 0;
     return wall.side != 0;
+  }
+
+  // Whether a wall lies on the line of another. If both covered what the box has of it, the outline would go there and
+  // back, and bound nothing.
+  bool lies_along(const Wall& wall, const Wall& line) const {
+    const Vec2 end = wall.from + wall.along;
+    return std::fabs(line.distance(wall.from)) <= slip_ && std::fabs(line.distance(end)) <= slip_;
   }
 
   // Whether what the other half-planes and the box leave of a wall's line belongs to the wall.

@@ -48,6 +48,35 @@ TEST(Cells, FollowPrismsByWhatTheyComeTo) {
   }
 }
 
+// What an outline goes there and back bounds nothing, though its walls bound what looks like a wedge.
+TEST(Cells, FollowWallsThatGoThereAndBack) {
+  Draw draw(61);
+  for (int round = 0; round < 12; ++round) {
+    SCOPED_TRACE(round);
+    SceneBuilder b;
+    Outline outline{{{}}};
+    const int corners = 3 + round % 4;
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 360.0 * i / corners + draw.real(0, 20), r = draw.real(0.8, 1.2);
+      outline.loops[0].push_back({r * cos_degrees(angle), r * sin_degrees(angle), 0});
+    }
+    // From a corner inwards or outwards, and perhaps half as far again.
+    const OutlineCorner corner = outline.loops[0].back();
+    const auto add = [&](double share) { outline.loops[0].push_back({share * corner.x, share * corner.y, 0}); };
+    const double end = round % 3 == 0 ? 1.4 : draw.real(-0.2, 0.6);
+    add(end);
+    if (round % 4 == 1) {
+      add(1);
+      add(0.5 * (1 + end));
+    }
+    // Or a loop of nothing but an edge, from within.
+    if (round % 4 == 2) outline.loops.push_back({{0.1, 0.05, 0}, {draw.real(0.2, 0.6), draw.real(-0.4, 0.4), 0}});
+    const CsgTree tree = b.tree(b.primitive("prism", {outline, 0.7, false, round == 7 ? 0.6 : 1.0}));
+    for (const char* spec : {"cells", "cells:quality=fast"}) expect_same_answers(tree, spec, 300);
+    expect_streams_say_what_single_rays_say(tree, 4000);
+  }
+}
+
 // Twisted prisms come to a few walls in small cells, which turn past the ray: segments and arcs, scaled on the way or
 // not, with holes, and through one another.
 TEST(Cells, FollowTwistedPrismsByTheirWalls) {
