@@ -140,21 +140,32 @@ PlanarPart Mesh::planes_within(const LocalBox& box, std::vector<Plane>& planes) 
     if (!all_below()) return PlanarPart::unknown;
     found = PlanarPart::above_any;
   }
-  // Whether the mesh means it so, a place below all planes tells, and one in each part beyond: where parts of it
-  // overlap, or lie on one another, it may not. What of the box is beyond a plane has a corner of the box.
+  // Whether the mesh means it so, a place below all planes tells, and one beyond each: where parts of it overlap, or
+  // lie on one another, it may not. What of the box is beyond a plane is one part, and has the corner that lies
+  // highest.
   const Region solid_below = found == PlanarPart::below_all ? Region::inside : Region::outside;
   const Region solid_above = found == PlanarPart::below_all ? Region::outside : Region::inside;
   const auto is_at = [&](const Vec3& p, Region region) { return classify({p, {}, {}, {p, p}}) == region; };
   Vec3 below = box.center;
-  bool is_anything_above = false;
+  std::array<Vec3, 8> box_corners;
   for (int i = 0; i < 8; ++i) {
     const Vec3 corner = box.corner(i), halfway = 0.5 * (box.center + corner);
     for (const Vec3& p : {halfway, corner}) {
       if (highest(planes, p) < highest(planes, below)) below = p;
     }
-    if (!(highest(planes, corner) > 2 * slip)) continue;
+    box_corners[static_cast<std::size_t>(i)] = corner;
+  }
+  std::array<bool, 8> is_known{};
+  bool is_anything_above = false;
+  for (const Plane& plane : planes) {
+    const auto* const top = std::max_element(box_corners.begin(), box_corners.end(), [&](const Vec3& a, const Vec3& b) {
+      return dot(plane.normal, a) < dot(plane.normal, b);
+    });
+    if (!(dot(plane.normal, *top) - plane.d > 2 * slip)) continue;
     is_anything_above = true;
-    if (!is_at(corner, solid_above)) return PlanarPart::unknown;
+    bool& known = is_known[static_cast<std::size_t>(top - box_corners.begin())];
+    if (!known && !is_at(*top, solid_above)) return PlanarPart::unknown;
+    known = true;
   }
   const bool is_meant = is_anything_above && highest(planes, below) < -2 * slip && is_at(below, solid_below);
   return is_meant ? found : PlanarPart::unknown;

@@ -32,9 +32,12 @@ class LeafPieces {
   Box3 surface() const;
   /// Whether there was none for the box being too large. Of twisted outlines.
   bool was_too_large() const { return twisted_.is_too_large; }
-  /// Whether a smaller one may cost much less: with up to four walls the turns of rays cost more (by trial on
-  /// OpenSCAD's screw and spring). Of twisted outlines.
-  bool has_many_walls() const { return twisted_.walls.size() > 4; }
+  /// Whether a smaller one may cost less: with fewer walls, but not with fewer planes. With up to four twisted walls
+  /// the turns of rays cost more (by trial on OpenSCAD's screw and spring).
+  bool may_cost_less() const {
+    if (kind_ == RecordKind::twisted_piece) return twisted_.walls.size() > 4;
+    return kind_ != RecordKind::convex_piece && kind_ != RecordKind::notch_piece;
+  }
   /// What following it costs (CellCost).
   double price() const;
   /// The numbers of its record.

@@ -98,7 +98,7 @@ TabledSubdivider::Part TabledSubdivider::make_part(const Box3& box, const Folded
     const double exact_price = this->exact_price(leaf, surface);
     exact += exact_price;
     if (leaf.has_pieces && pieces_.find(leaf.leaf, within)) {
-      may_cost_less |= leaf.has_small_pieces ? pieces_.has_many_walls() : leaf.has_windows();
+      may_cost_less |= pieces_.may_cost_less();
       around = hull(around, pieces_.surface());
       followed += pieces_.price();
       hoped += pieces_.price();
