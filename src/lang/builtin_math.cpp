@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
+#include <random>
 
 #include "lang/builtin_functions.h"
 #include "tenon/math/affine3.h"
@@ -45,26 +48,27 @@ double tangent(double x) {
   return a < 0 ? -t : t;
 }
 
-// An angle next to a whole number of degrees, where the sine of that is the argument to within a rounding, is that
-// number: so asin(sqrt(3)/2) is 60.
+// An angle next to a whole number of degrees, where the sine of that is the argument, is that number: so
+// asin(sqrt(3)/2) is 60.
+// @param roundings  of half an ulp, by which the argument may differ
 template <class Function>
-double snapped(double angle, double argument, Function function) {
+double snapped(double angle, double argument, Function function, double roundings) {
   const double nearest = std::round(angle);
-  const double tolerance = std::numeric_limits<double>::epsilon();
+  const double tolerance = roundings * 0.5 * std::numeric_limits<double>::epsilon();
   return std::fabs(function(nearest) - argument) <= tolerance * std::fabs(argument) ? nearest : angle;
 }
 
 double arc_sine(double x) {
   if (!(std::fabs(x) <= 1)) return std::numeric_limits<double>::quiet_NaN();
-  return snapped(std::asin(x) * degrees_per_radian, x, sin_degrees);
+  return snapped(std::asin(x) * degrees_per_radian, x, sin_degrees, 1);
 }
 double arc_cosine(double x) {
   if (!(std::fabs(x) <= 1)) return std::numeric_limits<double>::quiet_NaN();
-  return snapped(std::acos(x) * degrees_per_radian, x, cos_degrees);
+  return snapped(std::acos(x) * degrees_per_radian, x, cos_degrees, 1);
 }
 double arc_tangent(double x) {
   if (std::isinf(x)) return x > 0 ? 90 : -90;
-  return snapped(std::atan(x) * degrees_per_radian, x, tangent);
+  return snapped(std::atan(x) * degrees_per_radian, x, tangent, 2);
 }
 
 double arc_tangent_2(double y, double x) {
@@ -169,7 +173,8 @@ Value random_numbers(const BuiltinCall& call) {
   if (call.arguments.size() == 4) generator.seed(seed_of(values[3]));
   ListBuilder list(call.environment.budget);
   const double count = std::fabs(std::trunc(values[2]));
-  for (double i = 0; i < count; ++i) list.add(Value(random_between(generator, low, high)));
+  // Where there is no choice, no number is drawn.
+  for (double i = 0; i < count; ++i) list.add(Value(low < high ? random_between(generator, low, high) : low));
   return std::move(list).finish();
 }
 

@@ -6,7 +6,7 @@ namespace tenon::lang {
 
 std::size_t count_turns(const Range& range, Place at, Environment& environment) {
   if (range.step == 0) {
-    environment.warn(at, "this range would never end, for its step is 0; it is taken for empty");
+    environment.warn(at, "this range gets nowhere, for its step is 0; it is taken for empty");
     return 0;
   }
   const double size = range.size();

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "lang/facets.h"
 #include "lang/failure.h"
@@ -21,15 +22,18 @@ Solid make_polyhedron(ModuleCall& call, std::vector<Plane> planes) {
 }
 
 // What encloses a profile right of the axis, from below upwards, when it is turned in facets.
-// @param planes  those of the polyhedron
-Solid make_faceted(ModuleCall& call, std::vector<Plane> planes, const std::vector<Vec2>& profile, int facets) {
-  if (planes.size() <= most_planes) return make_polyhedron(call, std::move(planes));
+// @param find_planes  gives those of the polyhedron, where there are few
+Solid make_faceted(ModuleCall& call, const std::function<std::vector<Plane>()>& find_planes,
+                   const std::vector<Vec2>& profile, int facets) {
+  if (static_cast<std::size_t>(facets) * (profile.size() - 1) + 2 <= most_planes) {
+    return make_polyhedron(call, find_planes());
+  }
   std::vector<OutlineCorner> loop{{0, profile.front().y, 0}};
   for (const Vec2& p : profile) loop.push_back({p.x, p.y, 0});
   loop.push_back({0, profile.back().y, 0});
   std::vector<double> angles;
   for (int i = 0; i < facets; ++i) angles.push_back(360.0 * i / facets);
-  return turned_in_facets(call.evaluator, {{loop}}, angles, call.at());
+  return turned_in_facets(call.evaluator, {{loop}}, 0, angles, call.at());
 }
 
 std::optional<Solid> cube(ModuleCall& call) {
@@ -55,7 +59,8 @@ std::optional<Solid> sphere(ModuleCall& call) {
   const double r = radius_argument(call, arguments, 0, 1, "r").value_or(1);
   const int facets = facet_count(call.evaluator, r);
   if (facets == 0 || !(r > 0) || !std::isfinite(r)) return make_primitive(call, "sphere", {r});
-  return make_faceted(call, faceted_sphere(r, facets), sphere_profile(r, facets), facets);
+  return make_faceted(
+      call, [&] { return faceted_sphere(r, facets); }, sphere_profile(r, facets), facets);
 }
 
 std::optional<Solid> cylinder(ModuleCall& call) {
@@ -75,7 +80,8 @@ std::optional<Solid> cylinder(ModuleCall& call) {
   const bool sound = h > 0 && r1 >= 0 && r2 >= 0 && r1 + r2 > 0 && std::isfinite(h + r1 + r2);
   if (facets > 0 && sound) {
     const double bottom = center ? -h / 2 : 0;
-    return make_faceted(call, faceted_cone(h, r1, r2, bottom, facets), {{r1, bottom}, {r2, bottom + h}}, facets);
+    const auto find_planes = [&] { return faceted_cone(h, r1, r2, bottom, facets); };
+    return make_faceted(call, find_planes, {{r1, bottom}, {r2, bottom + h}}, facets);
   }
   if (r1 == r2) return make_primitive(call, "cylinder", {h, r1, center});
   return make_primitive(call, "cone", {h, r1, r2, center});

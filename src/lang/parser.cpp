@@ -263,6 +263,7 @@ std::vector<Argument> Parser::arguments() {
 
 std::vector<Argument> Parser::arguments_until(std::string_view closing) {
   std::vector<Argument> list;
+  accept_commas();
   while (!peek().is(closing) && !peek().is(")") && peek().kind != TokenKind::end) {
     Argument argument;
     argument.at = peek().at;
@@ -290,13 +291,14 @@ bool Parser::accept_commas() {
 std::vector<Parameter> Parser::parameters() {
   const Token open = expect("(", "before the parameters");
   std::vector<Parameter> list;
+  accept_commas();
   while (!peek().is(")")) {
     if (peek().kind != TokenKind::identifier) unexpected("the name of a parameter");
     Parameter parameter;
     parameter.name = context_.symbols.intern(take().text);
     if (accept("=")) parameter.fallback = expression();
     list.push_back(parameter);
-    if (!accept(",")) break;
+    if (!accept_commas()) break;
   }
   expect_closing(")", open);
   return list;

@@ -164,7 +164,8 @@ std::variant<std::vector<Plane>, BadPolyhedron> planes_of(const std::vector<Vec3
                          " to point " + std::to_string(edge.second) + " borders " + std::to_string(beside.size()) +
                          (beside.size() == 1 ? " face" : " faces") + ", not two"};
   }
-  if (!finder.all_points_are_within()) {
+  // It will be a mesh, whether it is convex or not.
+  if (finder.planes().size() > most_planes || !finder.all_points_are_within()) {
     return BadPolyhedron{"the polyhedron is not convex", false, true};
   }
   return finder.planes();

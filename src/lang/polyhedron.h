@@ -15,7 +15,7 @@ struct BadPolyhedron {
   bool is_general = false;  ///< it is not convex, or a face is not flat: a mesh says whether it is closed
 };
 
-/// A polyhedron of more is a mesh: the time of every ray grows with the number of planes, of a mesh's with its logarithm.
+/// A polyhedron of more is a mesh: the time of a ray grows with the number of planes, of a mesh's with its logarithm.
 inline constexpr std::size_t most_planes = 32;
 
 /// The planes of a convex polyhedron given by its corners and faces. Faces may be oriented either way.

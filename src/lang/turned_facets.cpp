@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lang/failure.h"
 #include "lang/polyhedron.h"
 #include "plane/shape.h"
 
 namespace tenon::lang {
+
+namespace {
+
+constexpr std::size_t most_corners = 1'000'000;
+
+}  // namespace
 
 std::vector<double> facet_angles(int facets, double degrees) {
   const bool is_whole = std::fabs(degrees) >= 360;
@@ -24,12 +31,16 @@ std::vector<double> facet_angles(int facets, double degrees) {
   return angles;
 }
 
-Solid turned_in_facets(ModuleEvaluator& evaluator, const Outline& outline, const std::vector<double>& angles,
-                       Place at) {
+Solid turned_in_facets(ModuleEvaluator& evaluator, const Outline& outline, double on_axis,
+                       const std::vector<double>& angles, Place at) {
   std::vector<Vec3> points;
   std::vector<std::vector<std::size_t>> faces;
   // Loops turn to the left around what they enclose.
-  for (const auto& loop : resolve(Shape::of(outline)).loops) {
+  for (auto& loop : resolve(Shape::of(outline)).loops) {
+    for (OutlineCorner& corner : loop) corner.x = corner.x <= on_axis ? 0 : corner.x;
+    if (points.size() + loop.size() * angles.size() > most_corners) {
+      fail(at, "more than a million corners of facets come of this; give a smaller $fn, or larger $fa and $fs");
+    }
     const std::size_t first = points.size(), corners = loop.size(), copies = angles.size();
     for (const double angle : angles) {
       const double c = cos_degrees(angle), s = sin_degrees(angle);
@@ -53,7 +64,7 @@ Solid turned_in_facets(ModuleEvaluator& evaluator, const Outline& outline, const
       }
     }
   }
-  return polyhedron_solid(evaluator, points, faces, at);
+  return faces.empty() ? Solid::nothing() : polyhedron_solid(evaluator, points, faces, at);
 }
 
 }  // namespace tenon::lang

@@ -194,7 +194,7 @@ class Turner {
     }
     SceneBuilder& builder = evaluator_.builder();
     if (!angles_.empty()) {
-      if (!has_arcs(outline)) return turned_in_facets(evaluator_, outline, angles_, at_);
+      if (!has_arcs(outline)) return turned_in_facets(evaluator_, outline, same_place(), angles_, at_);
       evaluator_.environment().warn(at_,
                                     "rotate_extrude() is round here, for the shape has arcs; give that few facets");
     }
@@ -240,10 +240,10 @@ Solid turned(ModuleEvaluator& evaluator, const Solid& shape, double degrees, Pla
   const bool mirrored = turner.right() <= turner.same_place() && turner.left() > turner.same_place();
   const Affine3 map = mirrored ? Affine3::scale({-1, 1, 1}) : Affine3();
   if (const int facets = facet_count(evaluator, std::max(turner.right(), turner.left())); facets > 0) {
-    const double part = std::min(std::fabs(degrees) / 360, 1.0);
-    std::vector<double> angles = facet_angles(static_cast<int>(facets * part), degrees);
+    const double part = std::min(std::fabs(degrees), 360.0);
+    std::vector<double> angles = facet_angles(static_cast<int>(facets * part / 360), degrees);
     // The mirror image stands on the other side of the axis.
-    if (mirrored && part == 1) std::ranges::for_each(angles, [](double& angle) { angle += 180; });
+    if (mirrored && part == 360) std::ranges::for_each(angles, [](double& angle) { angle += 180; });
     turner.set_facets(std::move(angles));
   }
   const Solid round = turner.rebuild(shape.node, map, false);

@@ -50,9 +50,9 @@ struct Range : RefCounted {
   Range(double begin_, double step_, double end_) : begin(begin_), step(step_), end(end_) {}
   double begin, step, end;
 
-  /// How many numbers it holds; infinity for a step of zero or an infinite end.
+  /// How many numbers it holds; infinity for an infinite end, and for a step of zero unless the end is below the begin.
   double size() const;
-  double at(std::size_t index) const { return begin + static_cast<double>(index) * step; }
+  double at(std::size_t index) const { return index == 0 ? begin : begin + static_cast<double>(index) * step; }
 };
 
 /// A function literal with the variables it sees.

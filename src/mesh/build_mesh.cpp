@@ -121,7 +121,7 @@ class MeshBuilder {
     if (bent > 0) {
       built_.notes.push_back(what_ + " has " + std::to_string(bent) +
                              (bent == 1 ? " face that is" : " faces that are") +
-                             " not flat; it depends on how they are cut into triangles");
+                             " not flat, and cut into triangles; the solid depends on how that is done");
     }
     if (without_area > 0) note(without_area, "without area; they are left out");
     return success();

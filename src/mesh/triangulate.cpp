@@ -97,8 +97,14 @@ double triangulate(std::span<const std::uint32_t> corners, const std::vector<Vec
   // A quadrilateral may be bent: the shorter diagonal keeps nearer to it, as a rule.
   std::size_t first = 0;
   if (corners.size() == 4) {
-    const auto diagonal = [&](std::size_t i) { return length(points[corners[i + 2]] - points[corners[i]]); };
-    first = diagonal(0) <= diagonal(1) ? 1 : 0;
+    // Of two as long, that to the greatest corner: it does not depend on where the face begins.
+    const auto length_of = [&](std::size_t i) { return length(points[corners[i + 2]] - points[corners[i]]); };
+    const auto greatest = [&](std::size_t i) {
+      const auto place = [](const Vec3& p) { return std::array{p.x, p.y, p.z}; };
+      return std::max(place(points[corners[i]]), place(points[corners[i + 2]]));
+    };
+    const double even = length_of(0), odd = length_of(1);
+    first = even < odd || (even == odd && greatest(0) > greatest(1)) ? 1 : 0;
   }
   EarClipper(std::move(flat), first).clip([&](std::size_t a, std::size_t b, std::size_t c) {
     out.push_back({corners[a], corners[b], corners[c]});

@@ -17,6 +17,7 @@ struct Wall {
   int side = 0;  ///< 1: to the right, -1: to the left, 0: not known yet
 
   double distance(const Vec2& p) const { return dot(right, p - from); }
+  Vec2 at(double share) const { return from + share * along; }
 };
 
 class WedgeSearch {
@@ -41,20 +42,28 @@ class WedgeSearch {
   std::optional<Wedge> find() {
     for (std::size_t i = 0; i < count_; ++i) {
       if (!(walls_[i].length > 0) || (count_ > 1 && !find_side(walls_[i]))) return std::nullopt;
-      for (std::size_t k = 0; k < i; ++k) {
-        if (lies_along(walls_[k], walls_[i])) return std::nullopt;
-      }
     }
     const Vec2 place = clear_point();
     if (!(clearance(place) > slip_)) return std::nullopt;
-    const bool is_inside = edges_.contains(place);
-    if (count_ == 1) walls_[0].side = is_inside == (walls_[0].distance(place) > 0) ? 1 : -1;
+    if (count_ == 1) walls_[0].side = edges_.contains(place) == (walls_[0].distance(place) > 0) ? 1 : -1;
     Wedge wedge;
-    wedge.is_solid = is_inside == is_within(place);
+    std::optional<Vec2> between;
     for (std::size_t i = 0; i < count_; ++i) {
-      if (!covers_its_line(i)) return std::nullopt;
+      const Stretch stretch = rest_of_line(i);
+      if (!is_covered(i, stretch)) return std::nullopt;
+      if (!stretch.is_empty()) between = between_walls(walls_[i].at(0.5 * (stretch.first + stretch.last)), between);
       const Vec2 outward = -walls_[i].side * walls_[i].right;
       wedge.sides[i] = {outward, dot(outward, walls_[i].from)};
+    }
+    // Whether the outline means it so, a place between all walls tells, and one beyond each: where walls lie on one
+    // another, it bounds nothing there. What of the box is beyond a wall no other enters, and it has the corner that
+    // lies farthest.
+    if (!between) return std::nullopt;
+    wedge.is_solid = edges_.contains(*between);
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Vec2 corner = farthest_corner(wedge.sides[i].normal);
+      const bool is_beyond = dot(wedge.sides[i].normal, corner) - wedge.sides[i].d > 2 * slip_;
+      if (is_beyond && edges_.contains(corner) == wedge.is_solid) return std::nullopt;
     }
     return wedge;
   }
@@ -75,15 +84,14 @@ class WedgeSearch {
     return wall.side != 0;
   }
 
-  // Whether a wall lies on the line of another. If both covered what the box has of it, the outline would go there and
-  // back, and bound nothing.
-  bool lies_along(const Wall& wall, const Wall& line) const {
-    const Vec2 end = wall.from + wall.along;
-    return std::fabs(line.distance(wall.from)) <= slip_ && std::fabs(line.distance(end)) <= slip_;
-  }
+  /// A part of a wall's line, in lengths of the wall.
+  struct Stretch {
+    double first, last;
+    bool is_empty() const { return !(first <= last); }
+  };
 
-  // Whether what the other half-planes and the box leave of a wall's line belongs to the wall.
-  bool covers_its_line(std::size_t i) const {
+  // What the other half-planes and the box leave of a wall's line.
+  Stretch rest_of_line(std::size_t i) const {
     const Wall& wall = walls_[i];
     double first = -std::numeric_limits<double>::infinity(), last = -first;
     // value + s slope >= 0 for the parts of the whole edge, s
@@ -105,21 +113,72 @@ class WedgeSearch {
       const Wall& other = walls_[k];
       clip(other.side * other.distance(wall.from), other.side * dot(other.right, wall.along));
     }
-    const double slip = 4 * slip_ / wall.length;
-    return !(first <= last) || (first >= -slip && last <= 1 + slip);
+    return {first, last};
+  }
+
+  // Whether that belongs to the wall.
+  bool is_covered(std::size_t i, const Stretch& stretch) const {
+    const double slip = 4 * slip_ / walls_[i].length;
+    return stretch.is_empty() || (stretch.first >= -slip && stretch.last <= 1 + slip);
+  }
+
+  // How far a place lies within all half-planes.
+  double depth(const Vec2& p) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < count_; ++i) least = std::min(least, walls_[i].side * walls_[i].distance(p));
+    return least;
+  }
+
+  // A place between all walls, the deepest of some: those on the way from one on a wall to the points of clear_point(),
+  // and to the last that was found.
+  std::optional<Vec2> between_walls(const Vec2& on_wall, std::optional<Vec2> best) const {
+    double most = best ? depth(*best) : 2 * slip_;
+    const auto try_towards = [&](const Vec2& p) {
+      for (const double share : {0.5, 0.0625, 1.0}) {
+        const Vec2 q = on_wall + share * (p - on_wall);
+        if (!(depth(q) > most)) continue;
+        most = depth(q);
+        best = q;
+      }
+    };
+    for_each_sample(try_towards);
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Stretch stretch = rest_of_line(i);
+      if (!stretch.is_empty()) try_towards(walls_[i].at(0.5 * (stretch.first + stretch.last)));
+    }
+    return best;
+  }
+
+  Vec2 farthest_corner(const Vec2& n) const {
+    Vec2 best;
+    double most = -std::numeric_limits<double>::infinity();
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 p = box_.corner(corner);
+      if (dot(n, {p.x, p.y}) <= most) continue;
+      most = dot(n, {p.x, p.y});
+      best = {p.x, p.y};
+    }
+    return best;
+  }
+
+  template <class Take>
+  void for_each_sample(const Take& take) const {
+    take(Vec2{box_.center.x, box_.center.y});
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 halfway = 0.5 * (box_.center + box_.corner(corner));
+      take(Vec2{halfway.x, halfway.y});
+    }
   }
 
   // Of a few points of the box, the one that is farthest from all lines.
   Vec2 clear_point() const {
-    Vec2 best{box_.center.x, box_.center.y};
-    double most = clearance(best);
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vec3 halfway = 0.5 * (box_.center + box_.corner(corner));
-      const Vec2 p{halfway.x, halfway.y};
-      if (clearance(p) <= most) continue;
+    Vec2 best;
+    double most = -1;
+    for_each_sample([&](const Vec2& p) {
+      if (clearance(p) <= most) return;
       most = clearance(p);
       best = p;
-    }
+    });
     return best;
   }
   double clearance(const Vec2& p) const {
@@ -127,11 +186,6 @@ class WedgeSearch {
     for (std::size_t i = 0; i < count_; ++i) least = std::min(least, std::fabs(walls_[i].distance(p)));
     return least;
   }
-  bool is_within(const Vec2& p) const {
-    return std::all_of(walls_.begin(), walls_.begin() + static_cast<std::ptrdiff_t>(count_),
-                       [&](const Wall& wall) { return wall.side * wall.distance(p) > 0; });
-  }
-
   const OutlineEdges& edges_;
   const LocalBox& box_;
   const std::size_t count_;

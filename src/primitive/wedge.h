@@ -23,8 +23,9 @@ struct Wedge {
 
 /// What straight edges of an outline bound within a box, where that, or what it leaves of the box, is convex.
 ///
-/// It is if no edge leaves the half-plane of another or lies on its line, and all of an edge's line that lies in the box
-/// and in the other half-planes belongs to the edge: then the half-planes' intersection and the outline have the same boundary there.
+/// It is if no edge leaves the half-plane of another, all of an edge's line that lies in the box and in the other
+/// half-planes belongs to the edge, and the outline has one side between the edges and the other beyond each: then the
+/// half-planes' intersection and the outline have the same boundary there.
 ///
 /// @param walls  edges, by their numbers: all that go through the box as seen along z; none is an arc
 /// @return none where neither is convex, or that cannot be told for certain

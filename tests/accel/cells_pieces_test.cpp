@@ -77,6 +77,22 @@ TEST(Cells, FollowWallsThatGoThereAndBack) {
   }
 }
 
+// The same of two walls that are one but for rounding, and a third near by: the shorter first or last, or neither all
+// along the other.
+TEST(Cells, FollowWallsThatNearlyGoThereAndBack) {
+  const std::vector<OutlineCorner> below{{4.5, 0.25, 0}, {10.5, 0.85, 0}, {10.5, -1, 0}, {4.5, -1, 0}};
+  const std::vector<OutlineCorner> under{{2.5, -0.3, 0}, {13.5, -0.3, 0}, {13.5, -2, 0}, {2.5, -2, 0}};
+  const Outline outlines[] = {
+      {{{{0, 3, 0}, {5, 3, 0}, {5, 0.5 + 4.5e-13, 0}, {10, 1, 0}, {0, 0, 0}}, below}},
+      {{{{0, 0, 0}, {10, 1, 0}, {5, 0.5 + 4.5e-13, 0}, {5, 3, 0}, {0, 3, 0}}, below}},
+      {{{{0, 0, 0}, {10, 0, 0}, {13, -1.35e-12, 0}, {3, 7e-13, 0}, {3, 3, 0}, {0, 3, 0}}, under}}};
+  for (const Outline& outline : outlines) {
+    SceneBuilder b;
+    const CsgTree tree = b.tree(b.primitive("prism", {outline, 1.0, false, 1.0}));
+    for (const char* spec : {"cells", "cells:quality=fast"}) expect_same_answers(tree, spec, 2000);
+  }
+}
+
 // Twisted prisms come to a few walls in small cells, which turn past the ray: segments and arcs, scaled on the way or
 // not, with holes, and through one another.
 TEST(Cells, FollowTwistedPrismsByTheirWalls) {

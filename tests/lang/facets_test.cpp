@@ -64,6 +64,23 @@ void expect_same(const UnionScene& scene, const Turned& turned, const std::strin
   EXPECT_GT(inside, 30) << what;
 }
 
+std::string in_facets(const std::string& text) {
+  return tree_of(text, {Facets::always, {}});
+}
+
+// The points of a polyhedron's text.
+std::vector<Vec3> points_of(const std::string& tree) {
+  std::vector<Vec3> points;
+  std::istringstream in(tree.substr(tree.find("points = [") + 10));
+  char c = 0;
+  for (Vec3 p; in >> c && c == '[' && in >> p.x >> c >> p.y >> c >> p.z >> c;) {
+    points.push_back(p);
+    in >> c;
+    if (c == ']') break;
+  }
+  return points;
+}
+
 const Profile ring{{3, 0}, {6, 0}, {6, 1}, {4, 1.5}, {6, 3}, {3, 4}};
 const Profile top{{0, 0}, {5, 0}, {2, 2}, {5, 3}, {0, 4}};
 
@@ -88,6 +105,25 @@ TEST(RotateExtrude, HasFacetsWhereTheyAreMeant) {
   expect_same(UnionScene("rotate_extrude($fn = 3, angle = 200) " + text_of(ring) + ";"), {ring, 0, 200, 2}, "few");
 }
 
+// Rounding leaves a corner of the axis beside it: there shall be no hole as wide as that.
+TEST(RotateExtrude, HasFacetsThatMeetOnTheAxis) {
+  const std::string profile = "translate([0.1 + 0.2 - 0.3, 0]) polygon([[0, 0], [2, 0], [1, 1], [2, 3], [0, 3]]);";
+  const auto spans = UnionScene("rotate_extrude($fn = 9) " + profile).spans({{0, 0, 10}, {0, 0, -1}});
+  ASSERT_EQ(spans.size(), 1u);
+  EXPECT_EQ(spans.front(), (SolidSpan{7, 10}));
+}
+
+TEST(RotateExtrude, CountsTheFacetsOfAPart) {
+  const auto copies = [](const std::string& of) {
+    const std::string scene = "$fn = 45; rotate_extrude(angle = " + of + ") translate([5, 0]) square(1);";
+    const std::vector<Vec3> points = points_of(in_facets(scene));
+    // Four corners a copy; what closes the circle takes two facets more.
+    return points.size() / 4;
+  };
+  EXPECT_EQ(copies("104"), 13u + 2);
+  EXPECT_EQ(copies("360"), 45u);
+}
+
 TEST(RotateExtrude, StaysRoundWhereTheShapeIs) {
   const std::string scene = "rotate_extrude($fn = 8) translate([5, 0]) circle(1, $fn = 40);";
   EXPECT_EQ(tree_of(scene), "torus(R = 5, r = 1);\n");
@@ -102,23 +138,6 @@ TEST(RotateExtrude, GoesAllAroundByAnAngleThatIsNone) {
     EXPECT_EQ(tree_of(scene), whole);
     EXPECT_NE(warnings_of(scene).find("goes all around with angle = "), std::string::npos);
   }
-}
-
-std::string in_facets(const std::string& text) {
-  return tree_of(text, {Facets::always, {}});
-}
-
-// The points of a polyhedron's text.
-std::vector<Vec3> points_of(const std::string& tree) {
-  std::vector<Vec3> points;
-  std::istringstream in(tree.substr(tree.find("points = [") + 10));
-  char c = 0;
-  for (Vec3 p; in >> c && c == '[' && in >> p.x >> c >> p.y >> c >> p.z >> c;) {
-    points.push_back(p);
-    in >> c;
-    if (c == ']') break;
-  }
-  return points;
 }
 
 // What has many facets is a mesh, whose time a ray does not grow with their number.
