@@ -52,7 +52,9 @@ Result<LoadOptions> load_options(const SceneArguments& arguments) {
 }  // namespace
 
 void SceneArguments::add_to(CLI::App& command) {
-  command.add_option("SCENE", path, "The scene file; - reads standard input")->type_name("")->required();
+  command.add_option("SCENE", path, "The scene file, or a mesh file; - reads standard input")
+      ->type_name("")
+      ->required();
   command.add_option("-D", definitions, "Set a variable of the scene: name=value (may be repeated)")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);

@@ -98,4 +98,13 @@ std::string format_text(const Value& value, const SymbolTable& symbols) {
   return format_value(value, symbols);
 }
 
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
 }  // namespace tenon::lang

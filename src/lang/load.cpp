@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "lang/deep_stack.h"
+#include "lang/format.h"
 #include "lang/module_evaluator.h"
 #include "lang/parser.h"
 #include "mesh/load_mesh.h"
@@ -20,16 +21,6 @@ std::string definitions_text(const LoadOptions& options) {
   std::string text;
   for (const auto& [name, value] : options.definitions) text += name + " = " + value + ";\n";
   return text;
-}
-
-// A mesh file is the scene of that mesh.
-std::string import_text(const std::string& file_name) {
-  std::string text = "import(\"";
-  for (const char c : file_name) {
-    if (c == '"' || c == '\\') text += '\\';
-    text += c;
-  }
-  return text + "\");\n";
 }
 
 // On the deep stack: everything that may recurse, the destruction of values included, begins and ends in here.
@@ -79,8 +70,9 @@ Result<Model> load(const std::function<const SourceText&(SourceFiles&)>& open, c
 Result<Model> load_model(const std::string& path, const LoadOptions& options, Diagnostics& diagnostics) {
   const std::filesystem::path file(path);
   std::error_code ignored;
+  // A mesh file is the scene of that mesh.
   if (is_mesh_file(path) && std::filesystem::is_regular_file(file, ignored)) {
-    return load_model_text(import_text(file.filename().string()), path, options, diagnostics);
+    return load_model_text("import(" + quoted(file.filename().string()) + ");\n", path, options, diagnostics);
   }
   return load([&](SourceFiles& files) -> const SourceText& { return files.read(path); }, options, diagnostics);
 }

@@ -6,6 +6,7 @@
 #include "lang/drawing_file.h"
 #include "lang/failure.h"
 #include "lang/flat_outline.h"
+#include "lang/format.h"
 #include "lang/primitive_arguments.h"
 #include "lang/source_files.h"
 #include "mesh/load_mesh.h"
@@ -13,15 +14,6 @@
 namespace tenon::lang {
 
 namespace {
-
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + '"';
-}
 
 MeshStructure mesh_structure(const ModuleArguments& arguments, std::size_t index) {
   if (!arguments.given(index)) return MeshStructure::bvh;

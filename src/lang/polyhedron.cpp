@@ -164,7 +164,7 @@ std::variant<std::vector<Plane>, BadPolyhedron> planes_of(const std::vector<Vec3
                          " to point " + std::to_string(edge.second) + " borders " + std::to_string(beside.size()) +
                          (beside.size() == 1 ? " face" : " faces") + ", not two"};
   }
-  // It will be a mesh, whether it is convex or not.
+  // Of so many planes it is a mesh, convex or not, and the question would take time with the square of their number.
   if (finder.planes().size() > most_planes || !finder.all_points_are_within()) {
     return BadPolyhedron{"the polyhedron is not convex", false, true};
   }
@@ -174,15 +174,12 @@ std::variant<std::vector<Plane>, BadPolyhedron> planes_of(const std::vector<Vec3
 Solid polyhedron_solid(ModuleEvaluator& evaluator, const std::vector<Vec3>& points, const std::vector<Face>& faces,
                        Place at) {
   auto result = planes_of(points, faces);
-  const auto* planes = std::get_if<0>(&result);
-  const bool is_general = !planes && std::get<1>(result).is_general;
-  if (is_general || (planes && planes->size() > most_planes)) return mesh_solid(evaluator, points, faces, at);
-  if (const auto* bad = std::get_if<BadPolyhedron>(&result)) {
-    if (!bad->empty) fail(at, bad->message);
-    evaluator.environment().warn(at, bad->message);
-    return Solid::nothing();
-  }
-  return add_primitive(evaluator, at, "convex_polyhedron", {std::get<0>(std::move(result))});
+  const auto* bad = std::get_if<BadPolyhedron>(&result);
+  if (!bad) return add_primitive(evaluator, at, "convex_polyhedron", {std::get<0>(std::move(result))});
+  if (bad->is_general) return mesh_solid(evaluator, points, faces, at);
+  if (!bad->empty) fail(at, bad->message);
+  evaluator.environment().warn(at, bad->message);
+  return Solid::nothing();
 }
 
 }  // namespace tenon::lang

@@ -136,7 +136,7 @@ class WedgeSearch {
     const auto try_towards = [&](const Vec2& p) {
       for (const double share : {0.5, 0.0625, 1.0}) {
         const Vec2 q = on_wall + share * (p - on_wall);
-        if (!(depth(q) > most)) continue;
+        if (!(depth(q) > most) || !is_in_box(q)) continue;
         most = depth(q);
         best = q;
       }
@@ -147,6 +147,16 @@ class WedgeSearch {
       if (!stretch.is_empty()) try_towards(walls_[i].at(0.5 * (stretch.first + stretch.last)));
     }
     return best;
+  }
+
+  // Within the box as seen along z. Its bounds, which walls are cut by, reach further where it is turned.
+  bool is_in_box(const Vec2& p) const {
+    return std::ranges::all_of(box_.half_edges, [&](const Vec3& side) {
+      const Vec2 across{-side.y, side.x};
+      double reach = 0;
+      for (const Vec3& edge : box_.half_edges) reach += std::fabs(dot(across, {edge.x, edge.y}));
+      return std::fabs(dot(across, p - Vec2{box_.center.x, box_.center.y})) <= reach;
+    });
   }
 
   Vec2 farthest_corner(const Vec2& n) const {
