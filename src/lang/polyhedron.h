@@ -11,8 +11,9 @@ namespace tenon::lang {
 /// Why points and faces make no convex polyhedron.
 struct BadPolyhedron {
   std::string message;
-  bool empty = false;       ///< it is only without volume
-  bool is_general = false;  ///< not convex, of many planes, or with a bent face: for a mesh, which says whether it is closed
+  bool empty = false;  ///< it is only without volume
+  bool is_general =
+      false;  ///< not convex, of many planes, or with a bent face: for a mesh, which says whether it is closed
 };
 
 /// A polyhedron of more is a mesh: the time of a ray grows with the number of planes, of a mesh's with its logarithm.

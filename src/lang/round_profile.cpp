@@ -6,26 +6,9 @@
 #include "lang/primitive_arguments.h"
 #include "plane/arc_corners.h"
 #include "plane/mapped_outline.h"
+#include "plane/outline_figures.h"
 
 namespace tenon::lang {
-
-namespace {
-
-bool has_arcs(const Outline& outline) {
-  return std::any_of(outline.loops.begin(), outline.loops.end(), [](const auto& loop) {
-    return std::any_of(loop.begin(), loop.end(), [](const OutlineCorner& corner) { return corner.bulge != 0; });
-  });
-}
-
-double largest_coordinate(const Outline& outline) {
-  double largest = 0;
-  for (const auto& loop : outline.loops) {
-    for (const OutlineCorner& c : loop) largest = std::max({largest, std::fabs(c.x), std::fabs(c.y)});
-  }
-  return largest;
-}
-
-}  // namespace
 
 std::optional<Shape> full_profile(const UnionLeaf& leaf) {
   if (leaf.kind == "cone") {

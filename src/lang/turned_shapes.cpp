@@ -9,6 +9,7 @@
 #include "lang/flat_outline.h"
 #include "lang/turned_facets.h"
 #include "plane/mapped_outline.h"
+#include "plane/outline_figures.h"
 #include "primitive/arc.h"
 #include "primitive/outline_edges.h"
 
@@ -17,12 +18,6 @@ namespace tenon::lang {
 namespace {
 
 using Loop = std::vector<OutlineCorner>;
-
-bool has_arcs(const Outline& outline) {
-  return std::any_of(outline.loops.begin(), outline.loops.end(), [](const Loop& loop) {
-    return std::any_of(loop.begin(), loop.end(), [](const OutlineCorner& c) { return c.bulge != 0; });
-  });
-}
 
 /// The circle that an outline is, if it is one: arcs that turn the same way around one centre, once.
 /// @param same_place  how far apart two places are that count as one

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "math/vec2.h"
 #include "tenon/primitive/outline.h"
@@ -14,5 +16,9 @@ using ParametricCurve = std::function<Vec2(double)>;
 /// `tolerance` of it: each is checked at its quarters, and halved until it does.
 void fit_arcs(const ParametricCurve& curve, double begin, double end, double tolerance,
               std::vector<OutlineCorner>& loop);
+
+/// Arcs and segments through some of the points that stand close along a closed curve, which keep within `tolerance` of
+/// all the others.
+std::vector<OutlineCorner> fit_arcs(std::span<const Vec2> points, double tolerance);
 
 }  // namespace tenon

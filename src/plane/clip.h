@@ -1,5 +1,6 @@
 #pragma once
 
+#include "plane/outline_figures.h"
 #include "plane/recover.h"
 #include "primitive/check.h"
 
@@ -19,12 +20,6 @@ inline ClipperLib::Paths clip(ClipperLib::ClipType type, const ClipperLib::Paths
 /// Whether there is a grid for coordinates up to this; outlines smaller or larger than primitives may be are none.
 inline bool has_grid(double largest) {
   return largest >= smallest_size && largest <= largest_size;
-}
-
-/// Bound on the |coordinates| of an outline.
-inline double largest_coordinate(const Outline& outline) {
-  const OutlineEdges edges(outline);
-  return edges.edges().empty() ? 0 : std::max(edges.reach().x, edges.reach().y);
 }
 
 }  // namespace tenon

@@ -3,6 +3,9 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <vector>
+
+#include "plane/arc_fit.h"
 
 namespace tenon {
 
@@ -12,7 +15,7 @@ constexpr int cells = 512;
 // Where the boundary turns sharply its edges are halved so often.
 constexpr int deepest = 14;
 
-/// Marching squares, whose edges are then refined.
+/// Marching squares, whose edges are then refined; arcs are put through their ends.
 class ContourTracer {
  public:
   ContourTracer(const std::function<bool(const Vec2&)>& inside, const Vec2& lower, const Vec2& upper)
@@ -22,6 +25,7 @@ class ContourTracer {
     step_ = 1.0 / (cells - 2.5) * size;
     origin_ = lower - 1.137 * step_;
     tolerance_ = 0x1p-17 * length(size);
+    fit_tolerance_ = 0x1p-20 * length(size);
   }
 
   Outline trace() {
@@ -36,7 +40,7 @@ class ContourTracer {
     }
     Outline outline;
     while (!next_.empty()) {
-      auto& loop = outline.loops.emplace_back();
+      std::vector<Vec2> points;
       const std::uint64_t first = next_.begin()->first;
       const Vec2 start = boundary_of(first);
       Vec2 from = start;
@@ -45,10 +49,11 @@ class ContourTracer {
         at = found->second;
         next_.erase(found);
         const Vec2 to = at == first ? start : boundary_of(at);
-        refine(from, to, 0, loop);
+        refine(from, to, 0, points);
         from = to;
         if (at == first) break;
       }
+      outline.loops.push_back(fit_arcs(points, fit_tolerance_));
     }
     return outline;
   }
@@ -106,7 +111,7 @@ class ContourTracer {
   }
 
   // Adds the way from a to b, its end left out.
-  void refine(const Vec2& a, const Vec2& b, int depth, std::vector<OutlineCorner>& loop) const {
+  void refine(const Vec2& a, const Vec2& b, int depth, std::vector<Vec2>& points) const {
     const Vec2 w = b - a;
     if (depth < deepest && length(w) > tolerance_) {
       const Vec2 middle = 0.5 * (a + b), left{-w.y, w.x};
@@ -115,18 +120,18 @@ class ContourTracer {
       if (!inside_(middle + aside) || inside_(middle - aside)) {
         if (inside_(middle + left) && !inside_(middle - left)) {
           const Vec2 m = boundary_between(middle + left, middle - left);
-          refine(a, m, depth + 1, loop);
-          refine(m, b, depth + 1, loop);
+          refine(a, m, depth + 1, points);
+          refine(m, b, depth + 1, points);
           return;
         }
       }
     }
-    loop.push_back({a.x, a.y, 0});
+    points.push_back(a);
   }
 
   const std::function<bool(const Vec2&)>& inside_;
   Vec2 origin_, step_;
-  double tolerance_ = 0;
+  double tolerance_ = 0, fit_tolerance_ = 0;  // of edges, and of arcs through points of the boundary
   std::vector<bool> states_ = std::vector<bool>((cells + 1) * (cells + 1));
   std::map<std::uint64_t, std::uint64_t> next_;  // from side to side through each cell
 };

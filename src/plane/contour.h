@@ -8,7 +8,8 @@
 namespace tenon {
 
 /// The outline of a set of points of the plane that is known by asking for points alone. Its corners lie on the set's
-/// boundary, and its edges within 2⁻¹⁷ of the size of the box; what is thinner than 1/512 of the box may be missed.
+/// boundary, and its segments and arcs within 2⁻¹⁷ of the size of the box; what is thinner than 1/512 of the box may be
+/// missed.
 /// @param lower, upper  a box that holds the set
 Outline contour(const std::function<bool(const Vec2&)>& inside, const Vec2& lower, const Vec2& upper);
 

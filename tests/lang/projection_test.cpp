@@ -1,6 +1,7 @@
 // projection() of solids, against what is known of them.
 #include <algorithm>
 
+#include "lang/convex_solid.h"
 #include "lang/language.h"
 #include "primitive/arc.h"
 #include "primitive/outline_edges.h"
@@ -14,13 +15,16 @@ Outline outline_of(const std::string& text) {
   EXPECT_TRUE(outcome.model.ok()) << (outcome.model ? "" : format_error(outcome.model.error()));
   if (!outcome.model) return {};
   const SceneGraph& graph = outcome.model->graph;
-  for (std::size_t i = graph.nodes.size(); i-- > 0;) {
-    const auto* leaf = std::get_if<PrimitiveLeaf>(&graph.nodes[i].content);
-    if (leaf && graph.primitives.kind(leaf->primitive).name == "prism") {
-      return std::get<Outline>(graph.primitives.values(leaf->primitive)[0]);
-    }
+  if (!graph.root) return {};
+  SceneNodeId id = graph.root;
+  while (!graph[id].children.empty()) {
+    EXPECT_EQ(graph[id].children.size(), 1u);
+    id = graph[id].children.front();
   }
-  return {};
+  const auto* leaf = std::get_if<PrimitiveLeaf>(&graph[id].content);
+  if (!leaf) return {};
+  EXPECT_EQ(graph.primitives.kind(leaf->primitive).name, "prism");
+  return std::get<Outline>(graph.primitives.values(leaf->primitive)[0]);
 }
 
 double area_of(const Outline& outline) {
@@ -91,16 +95,80 @@ TEST(CutProjection, OfAFaceInThePlaneCountsAboveIt) {
   EXPECT_NEAR(area_of(outline_of("projection(cut = true) cube(2);")), 4, 1e-12);
   EXPECT_EQ(tree_of("linear_extrude(1) projection(cut = true) translate([0, 0, -2]) cube(2); cube();"),
             tree_of("cube();"));
-  EXPECT_NEAR(area_of(outline_of("projection(cut = true) rotate([0, 90, 0]) cylinder(h = 4, r = 1);")), 8, 1e-3);
+  // Of an extrusion that lies on its side.
+  const std::string lying = "rotate([90, 0, 0]) linear_extrude(3) difference() { square([5, 2]); circle(1); }";
+  EXPECT_NEAR(area_of(outline_of("projection(cut = true) " + lying + ";")), 12, 1e-12);
+  EXPECT_EQ(tree_of("linear_extrude(1) projection(cut = true) translate([0, 0, -2]) " + lying + "; cube();"),
+            tree_of("cube();"));
+}
+
+TEST(CutProjection, IsExactOfWhatLiesOnItsSide) {
+  const auto area = [](const std::string& solid) { return area_of(outline_of("projection(cut = true) " + solid)); };
+  EXPECT_NEAR(area("rotate([0, 90, 0]) cylinder(h = 4, r = 1);"), 8, 1e-12);
+  EXPECT_NEAR(area("translate([0, 0, 0.6]) rotate([0, 90, 30]) cylinder(h = 4, r = 1);"), 4 * 1.6, 1e-12);
+  EXPECT_NEAR(area("rotate([90, 0, 0]) torus(3, 1);"), 2 * pi, 1e-12);
+  EXPECT_NEAR(area("torus(3, 1);"), 12 * pi, 1e-9);
+  // A cone cut along its axis, less a ball; and a turned profile.
+  EXPECT_NEAR(area("rotate([90, 0, 0]) difference() { cylinder(h = 4, r1 = 2, r2 = 1); sphere(1); }"), 12 - pi / 2,
+              1e-12);
+  const std::string bowl = "rotate_extrude() polygon([[0, 0], [3, 0], [4, 3], [3.5, 3], [2.5, 1], [0, 1]]);";
+  EXPECT_NEAR(area("rotate([90, 20, 0]) " + bowl), 9, 1e-12);
+  EXPECT_NEAR(area("translate([5, 0, -2]) " + bowl), pi * (std::pow(3 + 2.0 / 3, 2) - 9), 1e-9);
+}
+
+/// What a cut has of the plane, against what the solid itself is there.
+void expect_cut_is_of_solid(const std::string& solid, Random& random) {
+  SCOPED_TRACE(solid);
+  const OutlineEdges cut(outline_of("projection(cut = true) " + solid));
+  const UnionScene scene(solid);
+  int inside = 0, wrong = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const bool here = i % 2 == 0 && !cut.edges().empty();
+    const Vec2 low = here ? cut.lower() : Vec2{-6, -6}, high = here ? cut.upper() : Vec2{6, 6};
+    const Vec2 p{random.uniform(low.x, high.x), random.uniform(low.y, high.y)};
+    bool found = false;
+    for (const SolidSpan& span : scene.spans({{p.x, p.y, 0}, {0.3, 0.4, 1}})) found |= span.t_in <= 0 && span.t_out > 0;
+    inside += found;
+    wrong += found != cut.contains(p);
+  }
+  // Of ellipses none is further off than 2⁻²⁰ of the size: one point of ten thousand may lie between.
+  EXPECT_LE(wrong, 1);
+  EXPECT_TRUE(inside > 0 || cut.edges().empty());
+}
+
+TEST(CutProjection, IsOfTheSolidHoweverItStands) {
+  Random random(7);
+  const auto number = [&](double low, double high) { return std::to_string(random.uniform(low, high)); };
+  const std::string shapes[] = {"circle(2);", "difference() { square([4, 3], center = true); circle(1); }",
+                                "translate([1, 0.5]) circle(1.5, $fn = 5);",
+                                "offset(0.5) difference() { square(3); square(1); }"};
+  for (int round = 0; round < 30; ++round) {
+    const std::string place = "translate([" + number(-1, 1) + ", " + number(-1, 1) + ", " + number(-1, 1) +
+                              "]) rotate([" + number(0, 360) + ", " + number(0, 360) + ", " + number(0, 360) + "]) " +
+                              (round % 3 == 0 ? "multmatrix([[1, 0.3, 0.2], [0, 1.2, 0], [0.1, 0, 0.9]]) " : "");
+    const std::string cylinder = "cylinder(h = " + number(1, 5) + ", r1 = " + number(0.5, 3) +
+                                 ", r2 = " + (round % 2 == 0 ? "0" : number(0.5, 3)) + ", center = true);";
+    const std::string extrusion = "linear_extrude(" + number(1, 4) + ", scale = " + number(0, 2) + ", center = true) " +
+                                  shapes[round % std::size(shapes)];
+    expect_cut_is_of_solid(place + cylinder, random);
+    expect_cut_is_of_solid(place + extrusion, random);
+    // Of what lies on its side, or nearly.
+    const std::string lying = "translate([0, 0, " + number(-1, 1) + "]) rotate([" +
+                              (round % 5 == 0 ? std::string("90.000001") : std::string("90")) + ", " + number(0, 360) +
+                              ", " + number(0, 360) + "]) ";
+    expect_cut_is_of_solid(lying + extrusion, random);
+    expect_cut_is_of_solid(lying + cylinder, random);
+    expect_cut_is_of_solid(
+        "translate([0, 0, " + number(-2, 2) + "]) rotate_extrude() translate([2, 0]) " + shapes[round % 3], random);
+  }
 }
 
 TEST(CutProjection, AsksOtherSolids) {
-  EXPECT_NEAR(area_of(outline_of("projection(cut = true) rotate([90, 0, 0]) torus(3, 1);")), 2 * pi, 1e-3);
-  // A cone cut along its axis, less a ball.
-  EXPECT_NEAR(
-      area_of(outline_of("projection(cut = true) rotate([90, 0, 0]) difference() { cylinder(h = 4, r1 = 2, r2 = "
-                         "1); sphere(1); }")),
-      12 - pi / 2, 1e-3);
+  EXPECT_NEAR(area_of(outline_of("projection(cut = true) rotate([90, 0, 0]) paraboloid(h = 4, r = 2);")),
+              2 * 2 * 4 * 2 / 3.0, 1e-4);
+  Random random(8);
+  expect_cut_is_of_solid("rotate([40, 0, 0]) torus(3, 1);", random);
+  expect_cut_is_of_solid("rotate([40, 0, 0]) linear_extrude(3, twist = 100, center = true) square([3, 2]);", random);
 }
 
 TEST(ShadowProjection, IsExactOfUnions) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "plane/boundary.h"
+#include "primitive/arc.h"
 #include "support/random_outline.h"
 
 namespace tenon {
@@ -35,10 +36,22 @@ TEST(Contour, IsFineAtCurvesAndCorners) {
   const OutlineEdges edges(shape);
   const OutlineEdges found(contour([&](const Vec2& p) { return edges.contains(p); }, edges.lower(), edges.upper()));
   for (const OutlineEdge& edge : found.edges()) {
-    EXPECT_LE(distance_to_boundary(edges, 0.5 * (edge.from + edge.to)), 3e-5);
+    EXPECT_LE(distance_to_boundary(edges, middle_of_arc(edge.from, edge.to, edge.bulge)), 3e-5);
   }
+  // Nine segments and arcs, each corner cut by a short one, and what is too round for one arc.
+  EXPECT_LE(found.edges().size(), 60u);
   EXPECT_TRUE(found.contains({-1 + 1e-3, -1 + 1e-3}));
   EXPECT_FALSE(found.contains({0.3, 0.3}));
+}
+
+TEST(Contour, OfAnEllipseIsFewArcs) {
+  const auto inside = [](const Vec2& p) { return p.x * p.x / 9 + p.y * p.y < 1; };
+  const OutlineEdges found(contour(inside, {-3, -1}, {3, 1}));
+  EXPECT_LE(found.edges().size(), 120u);
+  for (const OutlineEdge& edge : found.edges()) {
+    const Vec2 m = middle_of_arc(edge.from, edge.to, edge.bulge);
+    EXPECT_NEAR(m.x * m.x / 9 + m.y * m.y, 1, 1e-4);
+  }
 }
 
 TEST(Contour, OfNothingIsNothing) {
