@@ -16,10 +16,6 @@ struct UnionLeaf {
   Affine3 map;  ///< of the primitive into the solid
 };
 
-/// The primitives that a solid is the union of; nothing where other operations make it. What they make of extrusions
-/// along one axis counts as one prism, where it is one: a plate with holes.
-std::optional<std::vector<UnionLeaf>> union_leaves(ModuleEvaluator& evaluator, const Solid& solid, Place at);
-
 /// An outline swept along the z axis of its primitive.
 struct Extrusion {
   Outline outline;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lang/convex_parts.h"
 #include "lang/round_profile.h"
+#include "lang/union_leaves.h"
 #include "plane/convex_outline.h"
 
 namespace tenon::lang {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
-#include "lang/convex_parts.h"
+#include "lang/polyhedral_parts.h"
 #include "lang/round_profile.h"
 #include "lang/rounded_extrusion.h"
+#include "lang/union_leaves.h"
 #include "plane/minkowski.h"
 #include "plane/offset.h"
 #include "plane/shape.h"
@@ -25,15 +27,17 @@ struct Summand {
   bool is_exact() const { return balls && balls->exact; }
 };
 
+Summand summand_of(const UnionLeaf& leaf) {
+  return {leaf, is_convex(leaf) ? spanning_balls(leaf) : std::nullopt};
+}
+
 std::vector<Summand> summands_of(ModuleEvaluator& evaluator, const Solid& solid, Place at) {
   const auto leaves = union_leaves(evaluator, solid, at);
   if (!leaves) {
     fail(at, "minkowski() of a difference or an intersection of solids is not supported yet; take it of its parts");
   }
   std::vector<Summand> summands;
-  for (const UnionLeaf& leaf : *leaves) {
-    summands.push_back({leaf, is_convex(leaf) ? spanning_balls(leaf) : std::nullopt});
-  }
+  std::transform(leaves->begin(), leaves->end(), std::back_inserter(summands), summand_of);
   return summands;
 }
 
@@ -62,6 +66,8 @@ class PairSum {
     if (auto solid = sum_with_sphere(b.leaf, a.leaf)) return *solid;
     if (auto solid = rounded(a.leaf, b.leaf)) return *solid;
     if (auto solid = rounded(b.leaf, a.leaf)) return *solid;
+    if (auto solid = sum_of_parts(a, b)) return *solid;
+    if (auto solid = sum_of_parts(b, a)) return *solid;
     require_convex(a);
     require_convex(b);
     if (a.balls->balls.size() * b.balls->balls.size() > most_pairs) {
@@ -84,6 +90,16 @@ class PairSum {
       }
     }
     return std::nullopt;
+  }
+
+  // Of what is not convex, but has flat faces: the sums of its convex parts.
+  std::optional<Solid> sum_of_parts(const Summand& whole, const Summand& other) {
+    if (whole.balls) return std::nullopt;
+    const auto parts = polyhedral_parts(whole.leaf);
+    if (!parts) return std::nullopt;
+    Solids sums;
+    for (const ConvexCell& part : *parts) sums.push_back(sum(summand_of(leaf_of(part)), other));
+    return evaluator_.builder().unite(sums);
   }
 
   // Of extrusions along one axis.

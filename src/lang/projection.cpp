@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "csg/csg_tree.h"
-#include "lang/convex_parts.h"
 #include "lang/flat_outline.h"
 #include "lang/leaf_slice.h"
 #include "lang/polyhedron_facets.h"
+#include "lang/union_leaves.h"
 #include "plane/arc_corners.h"
 #include "plane/contour.h"
 #include "plane/convex_outline.h"
