@@ -65,7 +65,10 @@ std::optional<Solid> hull_around_axis(ModuleEvaluator& evaluator, const std::vec
 Solid hull_of_solids(ModuleEvaluator& evaluator, const Solid& solid, Place at) {
   const auto leaves = union_leaves(evaluator, solid, at);
   if (!leaves) {
-    fail(at, "hull() of a difference or an intersection of solids is not supported yet; take the hull of its parts");
+    fail(at,
+         "hull() of a difference or an intersection with round solids is not supported yet; give them facets, such as "
+         "$fn "
+         "= 12, or take the hull of the parts");
   }
   if (leaves->empty()) return Solid::nothing();
   std::vector<Ball> balls;

@@ -34,7 +34,10 @@ Summand summand_of(const UnionLeaf& leaf) {
 std::vector<Summand> summands_of(ModuleEvaluator& evaluator, const Solid& solid, Place at) {
   const auto leaves = union_leaves(evaluator, solid, at);
   if (!leaves) {
-    fail(at, "minkowski() of a difference or an intersection of solids is not supported yet; take it of its parts");
+    fail(at,
+         "minkowski() of a difference or an intersection with round solids is not supported yet; give them facets, "
+         "such as "
+         "$fn = 12, or take it of the parts");
   }
   std::vector<Summand> summands;
   std::transform(leaves->begin(), leaves->end(), std::back_inserter(summands), summand_of);

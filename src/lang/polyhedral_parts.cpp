@@ -8,7 +8,7 @@
 
 #include "csg/tolerance.h"
 #include "lang/polyhedron_facets.h"
-#include "mesh/convex_parts.h"
+#include "mesh/convex_partition.h"
 #include "plane/outline_figures.h"
 #include "plane/shape.h"
 
@@ -41,7 +41,7 @@ std::optional<Parts> parts_of_facets(const PolyhedronFacets& facets) {
     if (wall) walls.push_back(std::move(*wall));
   }
   const auto is_inside = [&](const Vec3& p) { return winding_around(p, facets.points, facets.triangles) > 0.5; };
-  return convex_parts(*whole, std::move(walls), is_inside, same_place({*whole}), most_parts);
+  return convex_partition(*whole, std::move(walls), is_inside, same_place({*whole}), most_parts);
 }
 
 /// An outline of straight walls, swept along z and scaled on its way.
@@ -71,7 +71,7 @@ class StraightSweep {
       const double scale = scale_at((q.z - low_) / (high_ - low_));
       return edges_.contains({q.x / scale, q.y / scale});
     };
-    return convex_parts(*whole, std::move(walls), is_inside, same_place({*whole}), most_parts);
+    return convex_partition(*whole, std::move(walls), is_inside, same_place({*whole}), most_parts);
   }
 
  private:

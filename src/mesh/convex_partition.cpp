@@ -1,4 +1,4 @@
-#include "mesh/convex_parts.h"
+#include "mesh/convex_partition.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,9 +95,9 @@ class Partition {
 
 }  // namespace
 
-std::optional<std::vector<ConvexCell>> convex_parts(const ConvexCell& whole, std::vector<FlatPolygon> walls,
-                                                    const std::function<bool(const Vec3&)>& is_inside,
-                                                    double same_place, std::size_t most) {
+std::optional<std::vector<ConvexCell>> convex_partition(const ConvexCell& whole, std::vector<FlatPolygon> walls,
+                                                        const std::function<bool(const Vec3&)>& is_inside,
+                                                        double same_place, std::size_t most) {
   Partition partition(is_inside, same_place, most);
   partition.cut(whole, std::move(walls));
   if (partition.is_too_many()) return std::nullopt;

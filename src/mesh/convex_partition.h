@@ -19,9 +19,9 @@ namespace tenon {
 /// @param same_place  what lies no further from a plane lies in it
 /// @param most        parts
 /// @return nothing where there would be more parts
-std::optional<std::vector<ConvexCell>> convex_parts(const ConvexCell& whole, std::vector<FlatPolygon> walls,
-                                                    const std::function<bool(const Vec3&)>& is_inside,
-                                                    double same_place, std::size_t most);
+std::optional<std::vector<ConvexCell>> convex_partition(const ConvexCell& whole, std::vector<FlatPolygon> walls,
+                                                        const std::function<bool(const Vec3&)>& is_inside,
+                                                        double same_place, std::size_t most);
 
 /// How often triangles that close wind around a place, unrounded: the solid angles under which they are seen (Van
 /// Oosterom, Strackee, "The solid angle of a plane triangle", 1983).
