@@ -71,6 +71,31 @@ TEST(PolyhedralParts, OfWhatIsNotConvexByItself) {
   expect_parts("mirror([1, 1, 0]) difference() { " + ring + " cube(4); }", 120);
 }
 
+/// Boxes and wedges of whole numbers, many of whose faces lie in one another.
+std::string random_solid(Random& random, int depth) {
+  const auto whole = [&](int low, int high) { return std::to_string(random.below(high - low + 1) + low); };
+  if (depth == 0) {
+    const std::string place = "translate([" + whole(-5, 2) + ", " + whole(-5, 2) + ", " + whole(-5, 2) +
+                              "]) rotate([0, 0, " + (random.below(4) == 0 ? "30" : "90") + "]) ";
+    const std::string box = "cube([" + whole(1, 6) + ", " + whole(1, 6) + ", " + whole(1, 6) + "]);";
+    const std::string wedge = "linear_extrude(" + whole(1, 6) + ") polygon([[0, 0], [4, 0], [1, 1], [0, 5]]);";
+    return place + (random.below(3) == 0 ? wedge : box);
+  }
+  const std::string operations[] = {"difference() { ", "difference() { ", "intersection() { "};
+  std::string text =
+      operations[random.below(3)] + random_solid(random, depth - 1) + " " + random_solid(random, depth - 1);
+  if (random.below(2) == 0) text += " " + random_solid(random, depth - 1);
+  return text + " }";
+}
+
+TEST(PolyhedralParts, AreTheSolidWhereFacesCoincide) {
+  Random random(17);
+  for (int round = 0; round < 40; ++round) {
+    // Of the box something is left.
+    expect_parts("difference() { cube(12, center = true); " + random_solid(random, 2) + " }", 400);
+  }
+}
+
 TEST(PolyhedralParts, AreNotOfWhatIsRound) {
   const Outcome outcome = evaluate("difference() { cube(4, center = true); sphere(1); }");
   EXPECT_FALSE(polyhedral_parts(outcome.model->graph, outcome.model->graph.root, {}).has_value());
