@@ -8,8 +8,8 @@ namespace {
 
 using Reader = Result<PolygonSoup> (*)(const MeshFile&);
 
-constexpr std::pair<const char*, Reader> readers[] = {
-    {".stl", read_stl}, {".obj", read_obj}, {".off", read_off}, {".ply", read_ply}, {".3mf", read_3mf}};
+constexpr std::pair<const char*, Reader> readers[] = {{".stl", read_stl}, {".obj", read_obj}, {".off", read_off},
+                                                      {".ply", read_ply}, {".3mf", read_3mf}, {".amf", read_amf}};
 
 // nullptr where none reads such files.
 Reader find_reader(const std::string& path) {
@@ -19,7 +19,7 @@ Reader find_reader(const std::string& path) {
 }
 
 Error not_readable(const std::string& path) {
-  return at_file(path, "meshes are read from files that end in .stl, .obj, .off, .ply or .3mf, not '" +
+  return at_file(path, "meshes are read from files that end in .stl, .obj, .off, .ply, .3mf or .amf, not '" +
                            ending_of(path) + "'; export it as one of these");
 }
 

@@ -8,7 +8,7 @@ namespace tenon {
 /// Whether a file is a mesh that load_mesh() reads, by the ending of its name.
 bool is_mesh_file(const std::string& path);
 
-/// Reads a mesh file: STL, OBJ, OFF, PLY or 3MF, by the ending of its name.
+/// Reads a mesh file: STL, OBJ, OFF, PLY, 3MF or AMF, by the ending of its name.
 ///
 /// @param hull  see build_mesh()
 /// @return an error of kind input with its place in the file, or of kind machine when the file cannot be read

@@ -42,5 +42,6 @@ Result<PolygonSoup> read_obj(const MeshFile& file);
 Result<PolygonSoup> read_off(const MeshFile& file);
 Result<PolygonSoup> read_ply(const MeshFile& file);
 Result<PolygonSoup> read_3mf(const MeshFile& file);
+Result<PolygonSoup> read_amf(const MeshFile& file);
 
 }  // namespace tenon

@@ -1,22 +1,19 @@
-#include <zip.h>
-
 #include <array>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <optional>
 #include <pugixml.hpp>
 
 #include "base/text_scanner.h"
 #include "mesh/polygon_soup.h"
+#include "mesh/zip_package.h"
 #include "tenon/math/affine3.h"
 
 namespace tenon {
 
 namespace {
 
-// A package may say little and mean much: what it unpacks to, and how often parts of it are used, has an end.
-constexpr std::size_t largest_model = std::size_t{1} << 30;
+// A package may say little and mean much: how often parts of it are used has an end.
 constexpr std::size_t most_triangles = std::size_t{1} << 26;
 constexpr int deepest = 32;
 
@@ -25,43 +22,6 @@ constexpr const char* model_type = "http://schemas.microsoft.com/3dmanufacturing
 Error at_file(const MeshFile& file, const std::string& message) {
   return Error{ErrorKind::input, message, {file.path, 0, 0, {}}};
 }
-
-/// The parts of a package, which is a ZIP archive (Open Packaging Conventions).
-class Package {
- public:
-  explicit Package(const MeshFile& file) {
-    zip_error_t error;
-    zip_error_init(&error);
-    zip_source_t* source = zip_source_buffer_create(file.bytes.data(), file.bytes.size(), 0, &error);
-    zip_t* archive = source != nullptr ? zip_open_from_source(source, ZIP_RDONLY, &error) : nullptr;
-    if (archive == nullptr && source != nullptr) zip_source_free(source);
-    zip_error_fini(&error);
-    archive_.reset(archive);
-  }
-  bool is_open() const { return archive_ != nullptr; }
-
-  /// Nothing where the part is not there, damaged or too large. Names are matched as OPC has it: without their case.
-  std::optional<std::string> read(const std::string& name) const {
-    zip_stat_t stat;
-    if (zip_stat(archive_.get(), name.c_str(), ZIP_FL_NOCASE, &stat) != 0) return std::nullopt;
-    if ((stat.valid & ZIP_STAT_SIZE) == 0 || stat.size > largest_model) return std::nullopt;
-    const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> part(zip_fopen_index(archive_.get(), stat.index, 0),
-                                                                 zip_fclose);
-    if (part == nullptr) return std::nullopt;
-    // Read piece by piece: what the directory says of its size may be a lie.
-    std::string bytes;
-    char buffer[1 << 16];
-    for (;;) {
-      const zip_int64_t count = zip_fread(part.get(), buffer, sizeof buffer);
-      if (count < 0 || bytes.size() > largest_model) return std::nullopt;
-      if (count == 0) return bytes;
-      bytes.append(buffer, static_cast<std::size_t>(count));
-    }
-  }
-
- private:
-  std::unique_ptr<zip_t, void (*)(zip_t*)> archive_{nullptr, zip_discard};
-};
 
 std::optional<Vec3> coordinates(const pugi::xml_node& vertex) {
   Vec3 p;
@@ -192,7 +152,7 @@ class ModelReader {
 };
 
 // The part that the package's relations name as its model.
-std::string find_model(const Package& package) {
+std::string find_model(const ZipPackage& package) {
   const auto relations = package.read("_rels/.rels");
   pugi::xml_document document;
   if (relations && document.load_buffer(relations->data(), relations->size())) {
@@ -210,7 +170,7 @@ std::string find_model(const Package& package) {
 
 // 3MF Core Specification 1.3. Coordinates stay as they are, whatever the file's unit.
 Result<PolygonSoup> read_3mf(const MeshFile& file) {
-  const Package package(file);
+  const ZipPackage package(file);
   if (!package.is_open()) return at_file(file, "this is no 3MF file: it is no ZIP archive, or a damaged one");
   const std::string name = find_model(package);
   const auto model = package.read(name);

@@ -16,7 +16,7 @@ TEST(FuzzCorpus, EveryReaderBearsEveryFile) {
     if (!entry.is_regular_file()) continue;
     std::ifstream stream(entry.path(), std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-    for (const char* ending : {".stl", ".obj", ".off", ".ply", ".3mf"}) {
+    for (const char* ending : {".stl", ".obj", ".off", ".ply", ".3mf", ".amf"}) {
       SCOPED_TRACE(entry.path().string() + " as " + ending);
       fuzz::try_mesh({"corpus" + std::string(ending), bytes});
     }

@@ -162,7 +162,7 @@ TEST_F(MeshFileTest, WhatIsWrongIsSaidWithItsPlace) {
   expect_error("a.ply", binary_ply(false) + "abc", "goes on behind the elements that its header counts");
   expect_error("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty vec3 x\n",
                "a.ply:4:10: error: 'vec3' is no type");
-  expect_error("a.dxf", "", "files that end in .stl, .obj, .off, .ply or .3mf, not '.dxf'");
+  expect_error("a.dxf", "", "files that end in .stl, .obj, .off, .ply, .3mf or .amf, not '.dxf'");
 }
 
 TEST_F(MeshFileTest, WhatEnclosesNoSolidIsSaidWithCountAndFirstPlace) {

@@ -1,34 +1,10 @@
 #include <gtest/gtest.h>
-#include <zip.h>
-
-#include <vector>
 
 #include "mesh/polygon_soup.h"
+#include "mesh/zip_bytes.h"
 
 namespace tenon {
 namespace {
-
-// A package with these parts.
-std::string package(const std::vector<std::pair<std::string, std::string>>& parts) {
-  zip_error_t error;
-  zip_error_init(&error);
-  zip_source_t* target = zip_source_buffer_create(nullptr, 0, 0, &error);
-  zip_source_keep(target);
-  zip_t* archive = zip_open_from_source(target, ZIP_TRUNCATE, &error);
-  EXPECT_NE(archive, nullptr);
-  for (const auto& [name, bytes] : parts) {
-    zip_file_add(archive, name.c_str(), zip_source_buffer(archive, bytes.data(), bytes.size(), 0), ZIP_FL_OVERWRITE);
-  }
-  EXPECT_EQ(zip_close(archive), 0);
-  zip_source_open(target);
-  zip_source_seek(target, 0, SEEK_END);
-  std::string out(static_cast<std::size_t>(zip_source_tell(target)), '\0');
-  zip_source_seek(target, 0, SEEK_SET);
-  zip_source_read(target, out.data(), out.size());
-  zip_source_close(target);
-  zip_source_free(target);
-  return out;
-}
 
 const std::string tetrahedron =
     "<mesh><vertices><vertex x='0' y='0' z='0'/><vertex x='1' y='0' z='0'/><vertex x='0' y='1' z='0'/>"
@@ -39,7 +15,7 @@ std::string model(const std::string& objects, const std::string& items) {
   return "<model unit='millimeter'><resources>" + objects + "</resources><build>" + items + "</build></model>";
 }
 std::string with_model(const std::string& text) {
-  return package({{"3D/3dmodel.model", text}});
+  return zip_of({{"3D/3dmodel.model", text}});
 }
 std::string error_of(const std::string& bytes) {
   const auto soup = read_3mf({"a.3mf", bytes});
@@ -74,7 +50,7 @@ TEST(ThreeMf, TheModelIsTheOneThatThePackageNames) {
       "<Relationships><Relationship Target='/parts/it.model' Id='r' "
       "Type='http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel'/></Relationships>";
   const std::string whole = model("<object id='7'>" + tetrahedron + "</object>", "<item objectid='7'/>");
-  const auto soup = read_3mf({"a.3mf", package({{"_rels/.rels", relations}, {"parts/it.model", whole}})});
+  const auto soup = read_3mf({"a.3mf", zip_of({{"_rels/.rels", relations}, {"parts/it.model", whole}})});
   ASSERT_TRUE(soup) << soup.error().message;
   EXPECT_EQ(soup->face_count(), 4u);
 }
@@ -82,7 +58,7 @@ TEST(ThreeMf, TheModelIsTheOneThatThePackageNames) {
 TEST(ThreeMf, WhatIsWrongIsSaid) {
   expect_error("", "the part '3D/3dmodel.model' is missing");
   expect_error("PK\3\4 and no more", "no ZIP archive");
-  expect_error(package({{"else", "text"}}), "the part '3D/3dmodel.model' is missing");
+  expect_error(zip_of({{"else", "text"}}), "the part '3D/3dmodel.model' is missing");
   expect_error(with_model("<model><resources>"), "is no XML");
   expect_error(with_model("<html/>"), "has no <model>");
   expect_error(with_model(model("<object id='1'>" + tetrahedron + "</object>", "")), "builds no triangles");
