@@ -66,9 +66,8 @@ Solid hull_of_solids(ModuleEvaluator& evaluator, const Solid& solid, Place at) {
   const auto leaves = union_leaves(evaluator, solid, at);
   if (!leaves) {
     fail(at,
-         "hull() of a difference or an intersection with round solids is not supported yet; give them facets, such as "
-         "$fn "
-         "= 12, or take the hull of the parts");
+         "hull() of a difference or an intersection with round solids, or of more than 4,096 convex parts, is not "
+         "supported yet; give what is round facets, such as $fn = 12, or take the hull of the parts");
   }
   if (leaves->empty()) return Solid::nothing();
   std::vector<Ball> balls;

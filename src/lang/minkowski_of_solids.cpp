@@ -35,9 +35,8 @@ std::vector<Summand> summands_of(ModuleEvaluator& evaluator, const Solid& solid,
   const auto leaves = union_leaves(evaluator, solid, at);
   if (!leaves) {
     fail(at,
-         "minkowski() of a difference or an intersection with round solids is not supported yet; give them facets, "
-         "such as "
-         "$fn = 12, or take it of the parts");
+         "minkowski() of a difference or an intersection with round solids, or of more than 4,096 convex parts, is "
+         "not supported yet; give what is round facets, such as $fn = 12, or take it of the parts");
   }
   std::vector<Summand> summands;
   std::transform(leaves->begin(), leaves->end(), std::back_inserter(summands), summand_of);
@@ -70,7 +69,6 @@ class PairSum {
     if (auto solid = rounded(a.leaf, b.leaf)) return *solid;
     if (auto solid = rounded(b.leaf, a.leaf)) return *solid;
     if (auto solid = sum_of_parts(a, b)) return *solid;
-    if (auto solid = sum_of_parts(b, a)) return *solid;
     require_convex(a);
     require_convex(b);
     if (a.balls->balls.size() * b.balls->balls.size() > most_pairs) {
@@ -96,13 +94,30 @@ class PairSum {
   }
 
   // Of what is not convex, but has flat faces: the sums of its convex parts.
-  std::optional<Solid> sum_of_parts(const Summand& whole, const Summand& other) {
-    if (whole.balls) return std::nullopt;
-    const auto parts = polyhedral_parts(whole.leaf);
-    if (!parts) return std::nullopt;
+  std::optional<Solid> sum_of_parts(const Summand& a, const Summand& b) {
+    if (a.balls && b.balls) return std::nullopt;
+    const auto first = convex_summands(a), second = convex_summands(b);
+    if (!first || !second) return std::nullopt;
+    if (first->size() * second->size() > most_pairs) {
+      fail(at_, "minkowski() of these solids would have more than 100,000 parts");
+    }
     Solids sums;
-    for (const ConvexCell& part : *parts) sums.push_back(sum(summand_of(leaf_of(part)), other));
+    for (const Summand& p : *first) {
+      for (const Summand& q : *second) sums.push_back(sum(p, q));
+    }
     return evaluator_.builder().unite(sums);
+  }
+
+  static std::optional<std::vector<Summand>> convex_summands(const Summand& summand) {
+    if (summand.balls) return std::vector<Summand>{summand};
+    const auto parts = polyhedral_parts(summand.leaf);
+    if (!parts) return std::nullopt;
+    std::vector<Summand> summands;
+    for (const ConvexCell& part : *parts) {
+      const UnionLeaf leaf = leaf_of(part);
+      summands.push_back({leaf, spanning_balls(leaf)});
+    }
+    return summands;
   }
 
   // Of extrusions along one axis.

@@ -125,6 +125,7 @@ class PartOperations {
         for (const ConvexCell& q : b) {
           if (auto common = intersection(p, q, same)) result.push_back(std::move(*common));
         }
+        if (result.size() > most_parts) break;
       }
       return result;
     }

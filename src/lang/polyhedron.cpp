@@ -8,6 +8,7 @@
 
 #include "lang/primitive_arguments.h"
 #include "mesh/build_mesh.h"
+#include "primitive/convex_polyhedron.h"
 
 namespace tenon::lang {
 
@@ -49,13 +50,18 @@ class PlaneFinder {
     for (const auto& [edge, beside] : edges) {
       for (std::size_t f : beside) {
         for (std::size_t g : beside) {
-          if (g < f) neighbours[f].push_back(g);
+          if (g != f) neighbours[f].push_back(g);
         }
       }
     }
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
+    // The largest first: what is next to nothing wide has a plane of few true digits, and lies in that of another.
+    for (const std::size_t f : by_size()) {
       for (std::size_t g : neighbours[f]) {
         if (plane_of[g] && lies_in(f, planes_[*plane_of[g]])) plane_of[f] = plane_of[g];
+      }
+      // Of many planes it is a mesh, and they are not asked for.
+      for (std::size_t i = 0; i < planes_.size() && planes_.size() <= most_planes && !plane_of[f]; ++i) {
+        if (lies_in(f, planes_[i])) plane_of[f] = i;
       }
       if (plane_of[f]) continue;
       const std::optional<Plane> plane = plane_of_face(f);
@@ -99,17 +105,33 @@ class PlaneFinder {
                        [&](std::size_t i) { return std::fabs(dot(plane.normal, points_[i]) - plane.d) <= tolerance_; });
   }
 
+  // Newell's: as long as twice the area.
+  Vec3 normal_of(std::size_t f) const {
+    const Face& face = faces_[f];
+    const Vec3 origin = points_[face.front()];
+    Vec3 normal;
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      normal += cross(points_[face[i]] - origin, points_[face[(i + 1) % face.size()]] - origin);
+    }
+    return normal;
+  }
+
+  std::vector<std::size_t> by_size() const {
+    std::vector<std::pair<double, std::size_t>> sizes;
+    for (std::size_t f = 0; f < faces_.size(); ++f) sizes.emplace_back(-length(normal_of(f)), f);
+    std::sort(sizes.begin(), sizes.end());
+    std::vector<std::size_t> faces;
+    for (const auto& [size, f] : sizes) faces.push_back(f);
+    return faces;
+  }
+
   // Newell's normal, and the outermost corner's distance; null for a face without area.
   std::optional<Plane> plane_of_face(std::size_t f) const {
     const Face& face = faces_[f];
     const Vec3 origin = points_[face.front()];
-    Vec3 normal;
+    Vec3 normal = normal_of(f);
     double longest = 0;
-    for (std::size_t i = 0; i < face.size(); ++i) {
-      const Vec3 a = points_[face[i]] - origin, b = points_[face[(i + 1) % face.size()]] - origin;
-      normal += cross(a, b);
-      longest = std::max(longest, length(a));
-    }
+    for (const std::size_t i : face) longest = std::max(longest, length(points_[i] - origin));
     if (!(length(normal) > tolerance_ * longest)) return std::nullopt;
     normal = normalize(normal);
     if (dot(normal, inside_ - origin) > 0) normal = -normal;
@@ -134,6 +156,25 @@ Solid mesh_solid(ModuleEvaluator& evaluator, const std::vector<Vec3>& points, co
   if (!built) fail(at, built.error().message);
   for (const std::string& note : built->notes) evaluator.environment().warn(at, note);
   return add_primitive(evaluator, at, "mesh", {std::make_shared<const TriangleMesh>(std::move(built->mesh)), false});
+}
+
+// Whether planes enclose what they are of: those of faces next to nothing wide, or next to parallel, may meet
+// elsewhere.
+bool reaches_as_far(const std::vector<Plane>& planes, const std::vector<Vec3>& points) {
+  ConvexPolyhedron polyhedron;
+  polyhedron.planes = planes;
+  polyhedron.prepare();
+  if (!polyhedron.check().empty()) return false;
+  for (const Vec3& n : {Vec3{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}) {
+    double reach = -HUGE_VAL, largest = 0;
+    for (const Vec3& p : points) {
+      reach = std::max(reach, dot(n, p));
+      largest = std::max(largest, max_component(abs(p)));
+    }
+    // Bounds of vertices are generous; what is off by more than this would show.
+    if (!(std::fabs(polyhedron.support(n) - reach) <= 0x1p-30 * largest)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -175,8 +216,10 @@ Solid polyhedron_solid(ModuleEvaluator& evaluator, const std::vector<Vec3>& poin
                        Place at) {
   auto result = planes_of(points, faces);
   const auto* bad = std::get_if<BadPolyhedron>(&result);
-  if (!bad) return add_primitive(evaluator, at, "convex_polyhedron", {std::get<0>(std::move(result))});
-  if (bad->is_general) return mesh_solid(evaluator, points, faces, at);
+  if (!bad && reaches_as_far(std::get<0>(result), points)) {
+    return add_primitive(evaluator, at, "convex_polyhedron", {std::get<0>(std::move(result))});
+  }
+  if (!bad || bad->is_general) return mesh_solid(evaluator, points, faces, at);
   if (!bad->empty) fail(at, bad->message);
   evaluator.environment().warn(at, bad->message);
   return Solid::nothing();

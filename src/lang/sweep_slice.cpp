@@ -45,15 +45,15 @@ std::optional<Sweep> sweep_of(const UnionLeaf& leaf) {
   return sweep;
 }
 
-// One whose axis stays along z. As for straight ones, what lies lower counts of both ends.
-Shape slice_across(const Sweep& sweep, const Affine3& map, const Affine3& inverse) {
-  const double share = (inverse.translation().z - sweep.low) / (sweep.high - sweep.low);
+// One whose ends are parallel to the plane. As for straight ones, what lies lower counts of both ends.
+Shape slice_across(const Sweep& sweep, const Affine3& map) {
+  const double z = -map.m[2][3] / map.m[2][2], share = (z - sweep.low) / (sweep.high - sweep.low);
   const bool meets = map.m[2][2] > 0 ? share >= 0 && share < 1 : share > 0 && share <= 1;
   const Vec2 scale = sweep.from + share * (sweep.to - sweep.from);
   if (!meets || scale.x == 0 || scale.y == 0) return {};
   const double c = cos_degrees(-sweep.twist * share), s = sin_degrees(-sweep.twist * share);
   const Affine3 here{{{{scale.x * c, -scale.x * s, 0, 0}, {scale.y * s, scale.y * c, 0, 0}, {0, 0, 1, 0}}}};
-  return Shape::of(mapped(sweep.outline, map * here));
+  return Shape::of(mapped(sweep.outline, map * Affine3::translate({0, 0, z}) * here));
 }
 
 /// A sweep that is scaled evenly, cut aslant. Each of its points lies on the way of one point of the outline, which
@@ -65,7 +65,6 @@ class AslantSlice {
 
   std::optional<Shape> shape() {
     const double steepness = length(slope_), widest = std::max(sweep_.from.x, sweep_.to.x);
-    if (!(steepness > 0)) return Shape::of(image(sweep_.outline));
     // The ways that end, or begin, in the plane; of an end that is a point all do or none.
     const bool by_high = sweep_.to.x > sweep_.from.x;
     const PlaneLine line = crossed_at(by_high ? 1 : 0);
@@ -177,9 +176,9 @@ class AslantSlice {
 
 std::optional<Shape> slice_of_sweep(const UnionLeaf& leaf) {
   auto sweep = sweep_of(leaf);
-  const auto inverse = leaf.map.inverse();
-  if (!sweep || !inverse) return std::nullopt;
-  if (keeps_z_axis(leaf.map)) return slice_across(*sweep, leaf.map, *inverse);
+  if (!sweep || !leaf.map.inverse()) return std::nullopt;
+  const double tilt = std::hypot(leaf.map.m[2][0], leaf.map.m[2][1]);
+  if (tilt <= turn_rounding * std::fabs(leaf.map.m[2][2])) return slice_across(*sweep, leaf.map);
   const bool is_even = sweep->from.x == sweep->from.y && sweep->to.x == sweep->to.y;
   if (sweep->twist != 0 || !is_even) return std::nullopt;
   return AslantSlice(*sweep, leaf.map).shape();

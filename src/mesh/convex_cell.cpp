@@ -110,9 +110,12 @@ double ConvexCell::largest_coordinate() const {
 std::optional<ConvexCell> ConvexCell::behind(const PlaneSide& side) const {
   std::vector<FlatPolygon> faces;
   std::vector<Vec3> rim;
-  bool is_cut = false;
+  double most_before = 0, most_behind = 0;
   for (const FlatPolygon& face : faces_) {
-    is_cut |= std::any_of(face.corners.begin(), face.corners.end(), [&](const Vec3& p) { return side.of(p) > 0; });
+    for (const Vec3& p : face.corners) {
+      most_before = std::max(most_before, side.of(p));
+      most_behind = std::max(most_behind, -side.of(p));
+    }
     std::vector<Vec3> rest = side.behind(face.corners);
     if (rest.size() < 3) continue;
     // Corners of the old face that lie in the plane, and new ones, which are but for rounding.
@@ -123,9 +126,10 @@ std::optional<ConvexCell> ConvexCell::behind(const PlaneSide& side) const {
     faces.push_back({face.plane, std::move(rest)});
   }
   if (faces.empty()) return std::nullopt;
-  if (!is_cut) return *this;
+  if (most_before == 0) return *this;
   rim = sorted_around(std::move(rim), side.plane.normal);
-  if (rim.size() < 3) return *this;
+  // So little lies on one side that rounding makes it an edge.
+  if (rim.size() < 3) return most_before > most_behind ? std::nullopt : std::optional(*this);
   faces.push_back({side.plane, std::move(rim)});
   return ConvexCell(std::move(faces));
 }

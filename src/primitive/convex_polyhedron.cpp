@@ -35,10 +35,16 @@ std::string check_planes(const std::vector<Plane>& planes) {
   return {};
 }
 
+// Planes that come from corners are known to what those round by, over the size of the faces: what meets at a smaller
+// angle counts as parallel. A place is then off by this much of the distance (features below 2^-40 are promised
+// nowhere), which its slack says.
+constexpr double least_angle = 0x1p-38;
+
 // The part of the line of two planes that lies behind all the others.
 struct Edge {
   Vec3 point, direction;
   double point_error = 0, direction_error = 0;
+  double parallel_error = 0;  // by what planes that count as parallel may be off
   double begin = -std::numeric_limits<double>::infinity(), end = std::numeric_limits<double>::infinity();
   double begin_error = 0, end_error = 0;
 
@@ -47,6 +53,10 @@ struct Edge {
     const double size = max_component(abs(point)) + std::fabs(plane.d);
     const double value_error = 3 * point_error + gamma(8) * size, slope_error = 3 * direction_error + gamma(8);
     if (std::fabs(slope) <= slope_error) return value <= value_error;
+    if (std::fabs(slope) <= least_angle) {
+      parallel_error = std::max(parallel_error, least_angle * size);
+      return value <= value_error + least_angle * size;
+    }
     const double t = -value / slope;
     const double error = (value_error + std::fabs(t) * slope_error) / (std::fabs(slope) - slope_error);
     if (slope > 0 && t < end) {
@@ -75,7 +85,7 @@ void ConvexPolyhedron::prepare() {
     for (std::size_t j = i + 1; j < p.size(); ++j) {
       const Vec3 along = cross(p[i].normal, p[j].normal);
       const double sine = length(along);
-      if (sine <= gamma(16)) continue;
+      if (sine <= least_angle) continue;
       Edge edge;
       edge.direction = along / sine;
       edge.point = (p[i].d * cross(p[j].normal, edge.direction) + p[j].d * cross(edge.direction, p[i].normal)) / sine;
@@ -92,7 +102,7 @@ void ConvexPolyhedron::prepare() {
       }
       for (const double t : {edge.begin, edge.end}) {
         vertices_.push_back(edge.point + t * edge.direction);
-        slack_ = std::max(slack_, edge.point_error + std::max(edge.begin_error, edge.end_error) +
+        slack_ = std::max(slack_, edge.parallel_error + edge.point_error + std::max(edge.begin_error, edge.end_error) +
                                       std::fabs(t) * (edge.direction_error + gamma(4)));
       }
     }

@@ -132,6 +132,51 @@ TEST(Minkowski, OfDifferencesOfSolidsWithFlatFaces) {
             tree_of("cube(3);"));
 }
 
+// Faces of one zone have edges that are parallel but for rounding.
+TEST(Minkowski, OfBoxesThatAreTurned) {
+  Random random(5);
+  const auto turned = [&](const Vec3& size, std::vector<Vec3>& corners) {
+    const Vec3 angles{static_cast<double>(random.below(360)), static_cast<double>(random.below(360)),
+                      static_cast<double>(random.below(360))};
+    for (int i = 0; i < 8; ++i) {
+      corners.push_back(Affine3::rotate(angles).point(
+          {(i & 1) != 0 ? size.x : 0, (i & 2) != 0 ? size.y : 0, (i & 4) != 0 ? size.z : 0}));
+    }
+    std::ostringstream out;
+    out << "rotate([" << angles.x << ", " << angles.y << ", " << angles.z << "]) cube([" << size.x << ", " << size.y
+        << ", " << size.z << "]);";
+    return out.str();
+  };
+  for (int round = 0; round < 25; ++round) {
+    std::vector<Vec3> a, b;
+    const std::string first = turned({7, 2, 5}, a), second = turned({0.75, 0.25, 1}, b);
+    std::vector<SpanningBall> sums;
+    for (const Vec3& p : a) {
+      for (const Vec3& q : b) sums.push_back({p + q, 0});
+    }
+    const std::string text = "minkowski() { " + first + " " + second + " }";
+    EXPECT_EQ(warnings_of(text), "") << text;
+    expect_hull(text, sums, random, 1e-9);  // bounds of vertices are generous
+  }
+}
+
+TEST(Minkowski, OfTwoSolidsThatAreNotConvex) {
+  // Each part of the one with each of the other: an L and an L.
+  const std::string ell =
+      "rotate([0, 0, 20]) rotate([90, 0, 0]) linear_extrude(1) polygon([[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, "
+      "2]]);";
+  const std::string bars[] = {"rotate([0, 0, 20]) rotate([90, 0, 0]) cube([2, 1, 1]);",
+                              "rotate([0, 0, 20]) rotate([90, 0, 0]) cube([1, 2, 1]);"};
+  const std::string other = "rotate([30, 0, 0]) linear_extrude(2) polygon([[0, 0], [2, 0], [1, 1], [2, 2], [0, 2]]);";
+  const std::string halves[] = {"rotate([30, 0, 0]) linear_extrude(2) polygon([[0, 0], [2, 0], [1, 1], [0, 1]]);",
+                                "rotate([30, 0, 0]) linear_extrude(2) polygon([[0, 1], [1, 1], [2, 2], [0, 2]]);"};
+  std::string parts;
+  for (const std::string& bar : bars) {
+    for (const std::string& half : halves) parts += "minkowski() { " + bar + " " + half + " }";
+  }
+  EXPECT_NEAR(volume_of("minkowski() { " + ell + " " + other + " }", 6), volume_of(parts, 6), 1e-9);
+}
+
 TEST(Hull, OfDifferencesOfSolidsWithFlatFaces) {
   EXPECT_NEAR(volume_of("hull() difference() { cube(8, center = true); translate([0, 0, 2]) cube([9, 9, 5], center = "
                         "true); rotate([90, 0, 0]) cylinder(h = 20, r = 1, $fn = 6, center = true); }",

@@ -102,6 +102,25 @@ TEST(CutProjection, OfAFaceInThePlaneCountsAboveIt) {
             tree_of("cube();"));
 }
 
+// What is scaled towards a place beside its axis is sheared.
+TEST(CutProjection, OfWhatIsShearedAlongItsAxisEndsWithIt) {
+  const auto area = [](const std::string& solid) { return area_of(outline_of("projection(cut = true) " + solid)); };
+  const std::string square = " linear_extrude(2, center = true, scale = 0.5) square(6, center = true);";
+  EXPECT_NEAR(area("translate([0, 0, 0])" + square), 36 * 0.75 * 0.75, 1e-12);
+  EXPECT_NEAR(area("translate([0, 0, 0.5])" + square), 36 * 0.875 * 0.875, 1e-12);
+  EXPECT_EQ(area("translate([0, 0, 1.5])" + square), 0);
+  EXPECT_EQ(area("translate([0, 0, -1.5])" + square), 0);
+  EXPECT_EQ(area("translate([0, 0, -1.5]) rotate([180, 0, 0])" + square), 0);
+  const auto sheared = [&](const char* z) {
+    return area(std::string("multmatrix([[1, 0, 0.5, 0], [0, 1, 0, 0], [0, 0, 1, ") + z +
+                "], [0, 0, 0, 1]]) linear_extrude(10) polygon([[0, 0], [5, 0], [5, 5], [2, 2], [0, 5]]);");
+  };
+  EXPECT_NEAR(sheared("-4"), 25 - 7.5, 1e-12);
+  EXPECT_EQ(sheared("5"), 0);
+  EXPECT_EQ(sheared("-25"), 0);
+  EXPECT_EQ(sheared("-10"), 0);
+}
+
 TEST(CutProjection, IsExactOfWhatLiesOnItsSide) {
   const auto area = [](const std::string& solid) { return area_of(outline_of("projection(cut = true) " + solid)); };
   EXPECT_NEAR(area("rotate([0, 90, 0]) cylinder(h = 4, r = 1);"), 8, 1e-12);
@@ -146,12 +165,15 @@ TEST(CutProjection, IsOfTheSolidHoweverItStands) {
     const std::string place = "translate([" + number(-1, 1) + ", " + number(-1, 1) + ", " + number(-1, 1) +
                               "]) rotate([" + number(0, 360) + ", " + number(0, 360) + ", " + number(0, 360) + "]) " +
                               (round % 3 == 0 ? "multmatrix([[1, 0.3, 0.2], [0, 1.2, 0], [0.1, 0, 0.9]]) " : "");
+    const std::string sheared =
+        "translate([0, 0, " + number(-3, 3) + "]) multmatrix([[1, 0.3, 0.2], [0, 1.2, 0.4], [0, 0, -0.9]]) ";
     const std::string cylinder = "cylinder(h = " + number(1, 5) + ", r1 = " + number(0.5, 3) +
                                  ", r2 = " + (round % 2 == 0 ? "0" : number(0.5, 3)) + ", center = true);";
     const std::string extrusion = "linear_extrude(" + number(1, 4) + ", scale = " + number(0, 2) + ", center = true) " +
                                   shapes[round % std::size(shapes)];
     expect_cut_is_of_solid(place + cylinder, random);
     expect_cut_is_of_solid(place + extrusion, random);
+    expect_cut_is_of_solid(sheared + extrusion, random);
     // Of what lies on its side, or nearly.
     const std::string lying = "translate([0, 0, " + number(-1, 1) + "]) rotate([" +
                               (round % 5 == 0 ? std::string("90.000001") : std::string("90")) + ", " + number(0, 360) +
