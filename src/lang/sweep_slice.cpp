@@ -141,11 +141,8 @@ class AslantSlice {
           loop.push_back({p.x, p.y, 0});
           continue;
         }
-        const Circle circle = circle_of_arc(from, to, a.bulge);
-        const double angle = 4 * std::atan(a.bulge);
-        const auto conic = [&](double t) {
-          return image(t == 0 ? from : t == 1 ? to : circle.center + turned_by(from - circle.center, t * angle));
-        };
+        const auto arc = arc_points(from, to, a.bulge);
+        const auto conic = [&](double t) { return image(arc(t)); };
         double size = 0;
         for (const double t : {0.25, 0.5, 0.75, 1.0}) size = std::max(size, length(conic(t) - conic(0)));
         fit_arcs(conic, 0, 1, 0x1p-20 * size, loop);

@@ -18,6 +18,14 @@ inline Vec2 turned_by(const Vec2& v, double angle) {
   return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
+/// The points of an arc by the share of its angle, from 0 to 1; at the ends exactly those.
+/// @param bulge  not 0
+inline auto arc_points(const Vec2& from, const Vec2& to, double bulge) {
+  return [from, to, circle = circle_of_arc(from, to, bulge), angle = 4 * std::atan(bulge)](double share) {
+    return share == 0 ? from : share == 1 ? to : circle.center + turned_by(from - circle.center, share * angle);
+  };
+}
+
 /// Adds the corner that an arc begins with: two where it is more than a half circle.
 /// @param angle  that it turns by, in radians, positive to the left
 inline void add_arc(const Vec2& center, const Vec2& from, double angle, std::vector<OutlineCorner>& loop) {

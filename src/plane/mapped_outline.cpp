@@ -38,13 +38,11 @@ Outline mapped(const Outline& outline, const Affine3& map) {
         loop.push_back({p.x, p.y, turn * a.bulge});
         continue;
       }
-      const Circle circle = circle_of_arc(from, to, a.bulge);
-      const double angle = 4 * std::atan(a.bulge);
-      const auto ellipse = [&](double t) {
-        return image(map, t == 0 ? from : t == 1 ? to : circle.center + turned_by(from - circle.center, t * angle));
-      };
+      const auto arc = arc_points(from, to, a.bulge);
       const Vec2 u{map.m[0][0], map.m[1][0]}, v{map.m[0][1], map.m[1][1]};
-      fit_arcs(ellipse, 0, 1, 0x1p-20 * circle.radius * std::max(length(u), length(v)), loop);
+      const double radius = circle_of_arc(from, to, a.bulge).radius;
+      fit_arcs([&](double t) { return image(map, arc(t)); }, 0, 1, 0x1p-20 * radius * std::max(length(u), length(v)),
+               loop);
     }
   }
   return result;
