@@ -72,6 +72,7 @@ class PlaneFinder {
       plane_of[f] = planes_.size();
       planes_.push_back(*plane);
     }
+    put_in_order(plane_of);
     return std::nullopt;
   }
 
@@ -103,6 +104,17 @@ class PlaneFinder {
   bool lies_in(std::size_t f, const Plane& plane) const {
     return std::all_of(faces_[f].begin(), faces_[f].end(),
                        [&](std::size_t i) { return std::fabs(dot(plane.normal, points_[i]) - plane.d) <= tolerance_; });
+  }
+
+  // Planes are numbered as the first of their faces are.
+  void put_in_order(const std::vector<std::optional<std::size_t>>& plane_of) {
+    std::vector<Plane> ordered;
+    std::vector<bool> is_taken(planes_.size());
+    for (const auto& plane : plane_of) {
+      if (plane && !is_taken[*plane]) ordered.push_back(planes_[*plane]);
+      if (plane) is_taken[*plane] = true;
+    }
+    planes_ = std::move(ordered);
   }
 
   // Newell's: as long as twice the area.
