@@ -172,21 +172,22 @@ Solid mesh_solid(ModuleEvaluator& evaluator, const std::vector<Vec3>& points, co
 
 // Whether planes enclose what they are of: those of faces next to nothing wide, or next to parallel, may meet
 // elsewhere.
-bool reaches_as_far(const std::vector<Plane>& planes, const std::vector<Vec3>& points) {
+bool reach_as_far(const std::vector<Plane>& planes, const std::vector<Vec3>& points, const std::vector<Face>& faces) {
   ConvexPolyhedron polyhedron;
   polyhedron.planes = planes;
   polyhedron.prepare();
   if (!polyhedron.check().empty()) return false;
-  for (const Vec3& n : {Vec3{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}) {
-    double reach = -HUGE_VAL, largest = 0;
-    for (const Vec3& p : points) {
-      reach = std::max(reach, dot(n, p));
-      largest = std::max(largest, max_component(abs(p)));
-    }
-    // Bounds of vertices are generous; what is off by more than this would show.
-    if (!(std::fabs(polyhedron.support(n) - reach) <= 0x1p-30 * largest)) return false;
+  Vec3 lower = points[faces.front().front()], upper = lower;
+  for (const Face& face : faces) {
+    for (const std::size_t i : face) lower = min(lower, points[i]), upper = max(upper, points[i]);
   }
-  return true;
+  // Bounds of vertices are generous; what is off by more than this would show.
+  const double most = 0x1p-30 * max_component(max(abs(lower), abs(upper)));
+  const Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  return std::all_of(std::begin(axes), std::end(axes), [&](const Vec3& n) {
+    return std::fabs(polyhedron.support(n) - dot(n, upper)) <= most &&
+           std::fabs(polyhedron.support(-n) + dot(n, lower)) <= most;
+  });
 }
 
 }  // namespace
@@ -228,7 +229,7 @@ Solid polyhedron_solid(ModuleEvaluator& evaluator, const std::vector<Vec3>& poin
                        Place at) {
   auto result = planes_of(points, faces);
   const auto* bad = std::get_if<BadPolyhedron>(&result);
-  if (!bad && reaches_as_far(std::get<0>(result), points)) {
+  if (!bad && reach_as_far(std::get<0>(result), points, faces)) {
     return add_primitive(evaluator, at, "convex_polyhedron", {std::get<0>(std::move(result))});
   }
   if (!bad || bad->is_general) return mesh_solid(evaluator, points, faces, at);

@@ -9,8 +9,8 @@ namespace tenon::lang {
 /// (plane/contour.h).
 Solid cut_projection(ModuleEvaluator& evaluator, const Solid& solid, Place at);
 
-/// The shadow of a solid on the plane z = 0. Exact for unions of spheres, polyhedra, cylinders and cones, and
-/// extrusions along z; else rays along z ask the solid.
+/// The shadow of a solid on the plane z = 0. Exact for unions of spheres, cylinders and cones, extrusions along z,
+/// and what operations make of polyhedra; else rays along z ask the solid.
 Solid shadow_projection(ModuleEvaluator& evaluator, const Solid& solid, Place at);
 
 }  // namespace tenon::lang

@@ -73,7 +73,7 @@ class AslantSlice {
                            std::fabs(map_.m[2][3]);
     const double apart = std::fabs(height_at(by_high ? 0 : 1, line.point(0)));
     if (apart <= turn_rounding * largest) return Shape::of(along(line));
-    // The corners of what is between two such lines would have few true digits.
+    // Corners of what is between two such lines, which are known to 2^-52, would have less than 28 true bits.
     if (apart <= 0x1p-24 * largest) return std::nullopt;
     return Shape::of(
         image(resolve({Shape::Operation::intersect, {}, {Shape::of(sweep_.outline), Shape::of(strip())}})));

@@ -70,7 +70,8 @@ class Partition {
         behind += is_behind ? 1 : 0;
         both += is_before && is_behind ? 1 : 0;
       }
-      // A cut wall makes parts of others as well: by trial, worth a few on the wrong side.
+      // A wall that is cut becomes two, which cut on: that weighs more than one on the wrong side. It decides how many
+      // parts there are, and nothing else.
       const std::size_t cost = 8 * both + std::max(before, behind);
       if (cost < least) best = i;
       least = std::min(least, cost);

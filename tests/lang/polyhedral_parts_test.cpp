@@ -120,16 +120,22 @@ TEST(Minkowski, OfDifferencesOfSolidsWithFlatFaces) {
                         "center = true); }",
                         15),
               20 * 20 * 20 - 10 * 10 * 10, 1e-6);
-  EXPECT_NEAR(
-      volume_of("minkowski() { difference() { cube(8, center = true); cube(9); } sphere(1); }", 6),
-      // The body with a seventh of its corners open: parts of balls, cylinders and plates, less the inner edges.
-      volume_of("minkowski() { translate([-4, -4, -4]) cube([8, 8, 4]); sphere(1); }"
-                "minkowski() { translate([-4, -4, -4]) cube([8, 4, 8]); sphere(1); }"
-                "minkowski() { translate([-4, -4, -4]) cube([4, 8, 8]); sphere(1); }",
-                6),
-      1e-9);
+  EXPECT_NEAR(volume_of("minkowski() { difference() { cube(8, center = true); cube(9); } sphere(1); }", 6),
+              // The body with an eighth taken out is the union of three slabs.
+              volume_of("minkowski() { translate([-4, -4, -4]) cube([8, 8, 4]); sphere(1); }"
+                        "minkowski() { translate([-4, -4, -4]) cube([8, 4, 8]); sphere(1); }"
+                        "minkowski() { translate([-4, -4, -4]) cube([4, 8, 8]); sphere(1); }",
+                        6),
+              1e-9);
   EXPECT_EQ(tree_of("minkowski() { intersection() { cube(1); translate([2, 0, 0]) cube(1); } cube(1); } cube(3);"),
             tree_of("cube(3);"));
+}
+
+TEST(Polyhedron, MayNamePointsThatNoFaceHas) {
+  const std::string faces = "], [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]);";
+  const std::string corners = "polyhedron([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]";
+  EXPECT_NE(tree_of(corners + faces).find("convex_polyhedron"), std::string::npos);
+  EXPECT_EQ(tree_of(corners + ", [9, 9, 9]" + faces), tree_of(corners + faces));
 }
 
 // Faces of one zone have edges that are parallel but for rounding.

@@ -203,13 +203,20 @@ TEST(ShadowProjection, IsExactOfUnions) {
   EXPECT_NEAR(area_of(outline_of("projection() { cube(2); translate([1, 1, 5]) cube(2); }")), 7, 1e-9);
 }
 
+TEST(ShadowProjection, IsExactOfWhatOperationsMakeOfPolyhedra) {
+  EXPECT_NEAR(area_of(outline_of("projection() difference() { cube(2); translate([0, 0, 1]) cube(1); }")), 4, 1e-12);
+  EXPECT_NEAR(
+      area_of(outline_of("projection() rotate([0, 90, 0]) difference() { cube(4, center = true); cube([9, 2, 2], "
+                         "center = true); translate([0, 0, 2]) cube([9, 2, 1], center = true); }")),
+      16 - 4 - 1, 1e-12);
+}
+
 TEST(ShadowProjection, AsksOtherSolids) {
   EXPECT_NEAR(
       area_of(outline_of("projection() intersection() { sphere(2); translate([0, 0, 1]) cube([9, 9, 2], center = "
                          "true); }")),
       4 * pi, 1e-3);
   EXPECT_NEAR(area_of(outline_of("projection() torus(3, 1);")), 12 * pi, 1e-3);
-  EXPECT_NEAR(area_of(outline_of("projection() difference() { cube(2); translate([0, 0, 1]) cube(1); }")), 4, 1e-3);
 }
 
 TEST(Projection, SaysWhatItCannotDo) {
