@@ -293,6 +293,56 @@ TEST(Cells, BlocksWhoseRaysGoApartSayWhatSingleRaysSay) {
   EXPECT_LT(found, queries.size());
 }
 
+// Shadow rays as a picture has them: those to one light after those to another, in runs of any length. Each run is a
+// block of its own, whatever follows it in its batch.
+TEST(Cells, RunsOfRaysToSeveralLightsSayWhatSingleRaysSay) {
+  const CsgTree tree = gallery::random_scene(5, 24, 1.5);
+  const auto none = build_accelerator("none", tree), judged = build_accelerator("cells", tree);
+  const auto context = (*none)->make_context(), other = (*judged)->make_context();
+  const Box3 box = battery::extent(tree);
+  Draw draw(41);
+  std::vector<Hit> starts;
+  for (int i = 0; i < 400; ++i) {
+    RayQuery query;
+    query.ray = {box.center() + length(box.size()) * draw.direction(), {}};
+    query.ray.direction = draw.in_box(box) - query.ray.origin;
+    if (const Hit hit = (*none)->first_hit(query, *context); hit.found()) starts.push_back(hit);
+  }
+  ASSERT_GT(starts.size(), 100u);
+  std::vector<RayQuery> queries;
+  while (queries.size() < 4000) {
+    const Vec3 light = box.center() + 3 * length(box.size()) * draw.direction();
+    const auto run = static_cast<std::size_t>(draw.real(0, 2) < 1 ? draw.real(1, 8) : draw.real(8, 150));
+    const auto first = static_cast<std::size_t>(draw.real(0, static_cast<double>(starts.size())));
+    for (std::size_t i = 0; i < run; ++i) {
+      const Hit& start = starts[(first + i) % starts.size()];
+      RayQuery query;
+      query.ray = {start.point, light - start.point};
+      query.t_max = 1;
+      query.kind = RayKind::shadow;
+      query.from = &start;
+      queries.push_back(query);
+    }
+  }
+  std::size_t found = 0;
+  for (std::size_t begin = 0; begin < queries.size();) {
+    const auto call = std::min(queries.size() - begin, static_cast<std::size_t>(draw.real(1, 500)));
+    const std::span<const RayQuery> asked = std::span(queries).subspan(begin, call);
+    const auto [hits, boundaries, occluded] = ask_together(**judged, asked, *other);
+    for (std::size_t i = 0; i < call; ++i) {
+      const Hit hit = (*none)->first_hit(asked[i], *context);
+      found += hit.found();
+      ASSERT_TRUE(battery::same_hit(hit, hits[i]))
+          << battery::describe(hit) << " against " << battery::describe(hits[i]);
+      ASSERT_EQ(boundaries[i].t, hit.t);
+      ASSERT_EQ(occluded[i] != 0, hit.found());
+    }
+    begin += call;
+  }
+  EXPECT_GT(found, queries.size() / 8);
+  EXPECT_LT(found, queries.size());
+}
+
 // More work gives more and smaller cells: in a scene of some size, for in a small one a better plane may save some.
 TEST(Cells, QualityIsWorkInTheSubdivision) {
   const CsgTree tree = gallery::random_scene(6, 400, 6);

@@ -37,21 +37,22 @@ class BlockTracer {
     const D d;
     const auto zero = hn::Zero(d);
     const std::uint32_t octant = rays_.octant(0);
+    const double unit = 2 * cells_.scale.resolution;  // RayBatch::near is this over the length of the direction
     for (std::size_t a = 0; a < 3; ++a) {
       backward_[a] = octant >> a & 1;
-      auto least = hn::Set(d, 2.0), greatest = hn::Set(d, -2.0);
+      auto least = hn::Set(d, 2 * unit), greatest = hn::Set(d, -2 * unit);
       auto one_side = hn::Eq(zero, zero);
       for (std::size_t i = 0; i < rays_.padded; i += double_lanes) {
         const auto v = hn::Load(d, &rays_.direction[a][i]);
         // A direction of zero has no side of its own.
         one_side = hn::And(one_side, backward_[a] != 0 ? hn::Lt(v, zero) : hn::Gt(v, zero));
-        const auto share = hn::Div(v, hn::Load(d, &rays_.length[i]));
+        const auto share = hn::Mul(v, hn::Load(d, &rays_.near[i]));
         least = hn::Min(least, share);
         greatest = hn::Max(greatest, share);
       }
       if (!hn::AllTrue(d, one_side)) return false;
       const double spread = hn::GetLane(hn::MaxOfLanes(d, greatest)) - hn::GetLane(hn::MinOfLanes(d, least));
-      if (spread > widest_spread) return false;
+      if (spread > widest_spread * unit) return false;
     }
     FindIntervals();
     return true;

@@ -50,14 +50,11 @@ HWY_NOINLINE void TraceInBatches(const CellTree& cells, SingleTracer& single, st
   BlockTracer block(cells, rays, found, stream);
   const BatchAnswers finisher(cells, rays, found);
   constexpr bool any_will_do = Sink::wanted == Wanted::occlusion;
-  for (std::size_t begin = 0; begin < queries.size(); begin += RayBatch::most_rays) {
-    const std::size_t count = std::min(RayBatch::most_rays, queries.size() - begin);
-    const std::size_t next = begin + count;
-    rays.Begin(cells, queries.subspan(begin, count),
-               queries.subspan(next, std::min(RayBatch::most_rays, queries.size() - next)));
+  for (std::size_t begin = 0; begin < queries.size(); begin += rays.count) {
+    rays.Begin(cells, queries.subspan(begin));
     CountRays(rays, statistics);
     found.Clear(rays);
-    if (count >= least_batch && block.Begin()) {
+    if (rays.count >= least_batch && block.Begin()) {
       block.Trace(any_will_do, statistics);
     } else {
       stream.Trace(rays.in_scene(), nullptr, any_will_do, statistics);

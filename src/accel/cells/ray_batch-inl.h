@@ -12,6 +12,7 @@
 #include <hwy/cache_control.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <limits>
 
@@ -32,14 +33,16 @@ struct RayBatch {
   static constexpr std::size_t float_lanes = hn::MaxLanes(F());
   static constexpr std::size_t most_rays = 64;
 
-  /// Takes the rays.
-  /// @param later  those of the next batch, see CallLater()
-  void Begin(const CellTree& cells, std::span<const RayQuery> rays, std::span<const RayQuery> later) {
-    queries = rays;
-    later_ = later;
+  /// Takes the first of some rays: as many as there is room for, or fewer, where those that follow go another way.
+  void Begin(const CellTree& cells, std::span<const RayQuery> rays) {
+    queries = rays.first(std::min(most_rays, rays.size()));
+    Load();
+    queries = queries.first(FirstRun());
     count = queries.size();
     padded = (count + float_lanes - 1) / float_lanes * float_lanes;
-    Load();
+    later_ = rays.subspan(count, std::min(most_rays, rays.size() - count));
+    LookAtQueries();
+    Pad();
     FindStarts(cells);
     if (has_from) FindStartLeaves();
   }
@@ -132,7 +135,30 @@ struct RayBatch {
   std::size_t start_leaves = 0;  ///< of any ray, at most
 
  private:
-  HWY_NOINLINE void Load() {
+  // Such runs are blocks (BlockTracer); rays whose runs are shorter on average go all ways. By trial on the bench; it
+  // decides nothing but how long they take.
+  static constexpr std::size_t least_run = 16;
+
+  // Rays to one light come before those to the next, so of those of a batch the first may go into one octant, and all
+  // the others into another.
+  // @return how many go the same way as the first; all, where each goes a way of its own
+  std::size_t FirstRun() const {
+    const D d;
+    std::uint64_t turns = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+      std::uint64_t backward = 0;
+      for (std::size_t i = 0; i < most_rays; i += double_lanes) {
+        backward |= static_cast<std::uint64_t>(Bits(hn::Lt(hn::Load(d, &direction[a][i]), hn::Zero(d)))) << i;
+      }
+      turns |= backward ^ backward >> 1;
+    }
+    const std::size_t all = queries.size();
+    turns &= (std::uint64_t{1} << (all - 1)) - 1;
+    const auto runs = static_cast<std::size_t>(std::popcount(turns)) + 1;
+    return runs == 1 || runs * least_run > all ? all : static_cast<std::size_t>(std::countr_zero(turns)) + 1;
+  }
+
+  void LookAtQueries() {
     std::uintptr_t from = 0;
     std::uint32_t other_kinds = 0;
     for (const RayQuery& q : queries) {
@@ -141,7 +167,10 @@ struct RayBatch {
     }
     has_from = from != 0;
     one_kind = other_kinds == 0;
-    for (std::size_t i = LoadFours(); i < count; ++i) {
+  }
+
+  HWY_NOINLINE void Load() {
+    for (std::size_t i = LoadFours(); i < queries.size(); ++i) {
       const RayQuery& q = queries[i];
       for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
@@ -150,7 +179,10 @@ struct RayBatch {
       }
       end[i] = q.t_max;
     }
-    // Lanes without a ray repeat the last one, and have no length.
+  }
+
+  // Lanes without a ray repeat the last one, and have no length.
+  void Pad() {
     for (std::size_t i = count; i < padded; ++i) {
       for (std::size_t a = 0; a < 3; ++a) {
         query_origin[a][i] = query_origin[a][count - 1];
@@ -170,7 +202,7 @@ struct RayBatch {
     if constexpr (hn::MaxLanes(d) == 4) {
       static_assert(offsetof(RayQuery, ray.direction) == 3 * sizeof(double) &&
                     offsetof(RayQuery, t_max) == 6 * sizeof(double) && sizeof(RayQuery) >= 8 * sizeof(double));
-      for (; i + 4 <= count; i += 4) {
+      for (; i + 4 <= queries.size(); i += 4) {
         for (std::size_t half = 0; half < 2; ++half) {
           const auto numbers = [&](std::size_t ray) {
             return hn::LoadU(d, reinterpret_cast<const double*>(&queries[i + ray]) + 4 * half);
