@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "accel/cells/batch_findings-inl.h"
 #include "accel/cells/single_tracer-inl.h"
@@ -23,7 +24,11 @@ namespace HWY_NAMESPACE {
 class BatchAnswers {
  public:
   BatchAnswers(const CellTree& tree, const RayBatch& batch, const BatchFindings& findings)
-      : cells_(tree), together_to_near_(tree.scale.together_to_near()), rays_(batch), found_(findings) {}
+      : cells_(tree),
+        together_to_near_(tree.scale.together_to_near()),
+        one_medium_(tree.ranks.is_one_medium()),
+        rays_(batch),
+        found_(findings) {}
 
   /// @param begin  the place of the batch's first ray among those of the sink
   template <class Sink>
@@ -50,6 +55,7 @@ class BatchAnswers {
   static constexpr std::size_t double_lanes = RayBatch::double_lanes;
   static constexpr std::uint32_t all_lanes = (1U << double_lanes) - 1;
   static constexpr std::size_t kinds = static_cast<std::size_t>(ShapeKind::convex) + 1;
+  static constexpr double never = std::numeric_limits<double>::infinity();
   // Where fewer share a leaf, or a cell, it is not worth a vector of their own (by trial on the bench).
   static constexpr int least_neighbours = 3;
 
@@ -196,7 +202,7 @@ class BatchAnswers {
     const auto take_shape = [&]<class Shape>(const HugePageVector<Shape>& list) {
       return SharedShape<D, Shape>(list[shape.index()]);
     };
-    return Complete(shape.kind(), take, take_shape, places, lanes, begin, sink);
+    return Complete(shape.kind(), take, take_shape, places, found_.Entering(at), lanes, begin, sink);
   }
 
   // @param left  rays that meet leaves of the kind; those that are dealt with are taken out
@@ -225,7 +231,11 @@ class BatchAnswers {
       }
       return shapes;
     };
-    return Complete(kind, take, take_shapes, places, lanes, begin, sink);
+    std::uint8_t entering[8] = {};
+    for (std::size_t lane = 0; lane < double_lanes; ++lane) {
+      entering[0] |= static_cast<std::uint8_t>(static_cast<int>(found_.enters(places[lane])) << lane);
+    }
+    return Complete(kind, take, take_shapes, places, hn::LoadMaskBits(d, entering), lanes, begin, sink);
   }
 
   template <class Take>
@@ -242,17 +252,13 @@ class BatchAnswers {
 
   // The answers of rays at some places that meet leaves of one kind, where the crossing of spans() is certain.
   // @param take, take_shapes  called with a list of numbers, or of shapes: those of the places
+  // @param enters             the places whose rays enter their leaf
   // @param lanes              the places that matter
   template <class Take, class TakeShapes, class Sink>
   HWY_INLINE std::uint64_t Complete(ShapeKind kind, const Take& take, const TakeShapes& take_shapes,
-                                    const std::array<std::uint8_t, double_lanes>& places, std::uint32_t lanes,
-                                    std::size_t begin, const Sink& sink) const {
+                                    const std::array<std::uint8_t, double_lanes>& places, hn::Mask<D> enters,
+                                    std::uint32_t lanes, std::size_t begin, const Sink& sink) const {
     const D d;
-    std::uint8_t entering[8] = {};
-    for (std::size_t lane = 0; lane < double_lanes; ++lane) {
-      entering[0] |= static_cast<std::uint8_t>(static_cast<int>(found_.enters(places[lane])) << lane);
-    }
-    const auto enters = hn::LoadMaskBits(d, entering);
     const auto about = hn::Add(take(found_.t), take(rays_.start));
     CrossingLanes<D> end;
     if (kind == ShapeKind::torus) {
@@ -262,26 +268,35 @@ class BatchAnswers {
                          enters, about);
     }
     const auto sure = hn::AndNot(end.unsure, hn::Le(hn::Abs(hn::Sub(end.t, about)), take(rays_.near)));
-    const std::uint32_t in_time = RayBatch::Bits(hn::Lt(end.t, take(rays_.end)));
+    const auto in_time = hn::Lt(end.t, take(rays_.end));
     HWY_ALIGN double t[double_lanes];
     HWY_ALIGN double face[double_lanes];
-    hn::Store(end.t, d, t);
+    hn::Store(hn::IfThenElse(in_time, end.t, hn::Set(d, never)), d, t);
     hn::Store(end.face, d, face);
     std::uint64_t done = 0;
     for (lanes &= RayBatch::Bits(sure); lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
       const std::size_t i = places[lane];
-      CellAnswer answer;
-      answer.t = t[lane];
-      answer.kind = (in_time >> lane & 1) != 0 ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
-      answer.cell = found_.cell(i);
-      answer.surface = {found_.leaf(i), static_cast<std::uint32_t>(face[lane])};
-      answer.leaf_entering = found_.enters(i);
-      found_.TakeValues(i, answer);
-      sink.put(begin + i, answer);
+      Put(i, t[lane], static_cast<std::uint32_t>(face[lane]), begin, sink);
       done |= std::uint64_t{1} << i;
     }
     return done;
+  }
+
+  // @param t  of the boundary; infinite where that lies behind the ray's end
+  template <class Sink>
+  HWY_INLINE void Put(std::size_t i, double t, std::uint32_t face, std::size_t begin, const Sink& sink) const {
+    if constexpr (Sink::wanted == Wanted::boundary) {
+      if (HWY_LIKELY(one_medium_)) return sink.put_known(begin + i, t, {found_.leaf(i), face}, found_.behind(i) != 0);
+    }
+    CellAnswer answer;
+    answer.t = t;
+    answer.kind = t < never ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
+    answer.cell = found_.cell(i);
+    answer.surface = {found_.leaf(i), face};
+    answer.leaf_entering = found_.enters(i);
+    found_.TakeValues(i, answer);
+    sink.put(begin + i, answer);
   }
 
   void Answer(std::size_t i, CellAnswer& answer, SingleTracer& single, TraversalStatistics& statistics) const {
@@ -299,6 +314,7 @@ class BatchAnswers {
 
   const CellTree& cells_;
   const double together_to_near_;
+  const bool one_medium_;
   const RayBatch& rays_;
   const BatchFindings& found_;
 };

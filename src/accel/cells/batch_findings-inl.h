@@ -53,9 +53,16 @@ class BatchFindings {
   LeafId leaf(std::size_t i) const { return LeafId{static_cast<std::uint32_t>(place_[i])}; }
   bool enters(std::size_t i) const { return (how_[i] & entering) != 0; }
   bool is_group(std::size_t i) const { return (how_[i] & group) != 0; }
+  /// Of the rays in a vector of lanes those that enter their leaf.
+  hn::Mask<D> Entering(std::size_t at) const {
+    const U u;
+    return hn::RebindMask(D(), hn::TestBit(hn::Load(u, &how_[at]), hn::Set(u, entering)));
+  }
+  /// The value of the points behind the boundary.
+  std::uint8_t behind(std::size_t i) const { return static_cast<std::uint8_t>(how_[i] >> behind_bits); }
   void TakeValues(std::size_t i, CellAnswer& answer) const {
     answer.before = static_cast<std::uint8_t>(how_[i] >> before_bits);
-    answer.after = static_cast<std::uint8_t>(how_[i] >> behind_bits);
+    answer.after = behind(i);
   }
 
   /// The rays that have a boundary, a bit each. @param padded  of the batch

@@ -174,6 +174,7 @@ class BlockTracer {
     Open(cells_.nodes.front(), top);
     std::uint64_t steps = 0;
     while (top != stack) {
+      rays_.CallLater(8);
       const Entry entry = *--top;
       // Every ray has its boundary by then.
       if (entry.key > longest_) continue;
@@ -296,6 +297,7 @@ class BlockTracer {
     }
     bool shorter = false;
     if (HWY_UNLIKELY(!hn::AllFalse(d, walk.unsure))) shorter = Drop(at, RayBatch::Bits(walk.unsure));
+    if (hn::AllFalse(d, walk.met)) return shorter;
     auto leaf = hn::Set(u, cell.leaves[0].get());
     for (std::uint32_t i = 1; i < count; ++i) {
       leaf = hn::IfThenElse(hn::Eq(walk.place, hn::Set(u, i)), hn::Set(u, cell.leaves[i].get()), leaf);

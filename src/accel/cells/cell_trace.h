@@ -164,6 +164,12 @@ struct BoundarySink {
   const std::vector<Run>& runs;  ///< of the scratch memory
 
   static constexpr Wanted wanted = Wanted::boundary;
+  void put_known(std::size_t i, double t, const LeafFace& surface, bool enters) const {
+    RayBoundary& boundary = boundaries[i];
+    boundary.t = t;
+    boundary.surface = surface;
+    boundary.entering = enters;
+  }
   void put(std::size_t i, const CellAnswer& answer) const {
     const bool is_known = answer.kind == CellAnswer::Kind::boundary;
     RayBoundary& boundary = boundaries[i];

@@ -41,6 +41,7 @@ struct TableWalk {
   /// @param near, together  crossings no further apart may be one boundary, or certainly are
   void Follow(D d, std::uint32_t count, hn::Mask<D> lanes, hn::Vec<U> table, hn::Vec<D> t_in, hn::Vec<D> t_out,
               hn::Vec<D> near, hn::Vec<D> together) {
+    if (count == 1) return FollowLeaf(lanes, table, t_in, t_out);
     const hn::Vec<U> tables[] = {table};
     Follow(d, count, lanes, tables, t_in, t_out, near, together);
   }
@@ -51,29 +52,31 @@ struct TableWalk {
                          hn::Vec<D> t_out, hn::Vec<D> near, hn::Vec<D> together) {
     const U u;
     const auto nowhere = hn::Set(d, never);
-    const auto one = hn::Set(u, 1);
-    auto state = hn::Zero(u);
+    hn::Mask<D> within[Cell::most_tabled];
     hn::Vec<D> next[Cell::most_tabled];
     for (std::uint32_t i = 0; i < count; ++i) {
-      const auto within = hn::And(hn::Le(enter[i], t_in), hn::Lt(t_in, leave[i]));
-      state = hn::Or(state, hn::IfThenElseZero(hn::RebindMask(u, within), hn::Set(u, std::uint64_t{1} << i)));
+      within[i] = hn::And(hn::Le(enter[i], t_in), hn::Lt(t_in, leave[i]));
       const auto ahead = hn::IfThenElse(hn::Gt(enter[i], t_in), enter[i], nowhere);
-      next[i] = hn::IfThenElse(within, leave[i], ahead);
+      next[i] = hn::IfThenElse(within[i], leave[i], ahead);
     }
     unsure = hn::And(unsure, lanes);
+    met = crowded = enters = hn::Lt(near, hn::Zero(d));  // none yet
+    t = nowhere;
+    place = before = behind = hn::Zero(u);
+    auto first = Earliest(count, next);
+    auto active = hn::And(hn::AndNot(unsure, lanes), hn::Le(first, t_out));
+    if (hn::AllFalse(d, active)) return;
+
+    const auto one = hn::Set(u, 1);
+    auto state = hn::Zero(u);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      state = hn::Or(state, hn::IfThenElseZero(hn::RebindMask(u, within[i]), hn::Set(u, std::uint64_t{1} << i)));
+    }
     before = ValueOf(tables, state);
     // Of values of several bits it is followed whether they are that one.
     const auto table = bits > 1 ? StatesOf(tables, before) : tables[0];
     const auto start = bits > 1 ? one : before;
-    auto active = hn::AndNot(unsure, lanes);
-    met = crowded = enters = hn::Lt(near, hn::Zero(d));  // none yet
-    t = nowhere;
-    place = hn::Zero(u);
-    for (;;) {
-      auto first = next[0];
-      for (std::uint32_t i = 1; i < count; ++i) first = hn::Min(first, next[i]);
-      active = hn::And(active, hn::Le(first, t_out));
-      if (hn::AllFalse(d, active)) break;
+    for (; !hn::AllFalse(d, active); first = Earliest(count, next), active = hn::And(active, hn::Le(first, t_out))) {
       for (std::uint32_t i = count; i-- > 0;) {
         const auto crossed = hn::And(active, hn::Eq(next[i], first));
         const auto leaving = hn::Eq(leave[i], first);
@@ -104,6 +107,28 @@ struct TableWalk {
   }
 
  private:
+  // Where the only leaf of a cell is crossed the value changes. No other crossing is near, for an interval that is
+  // certain is longer.
+  HWY_INLINE void FollowLeaf(hn::Mask<D> lanes, hn::Vec<U> table, hn::Vec<D> t_in, hn::Vec<D> t_out) {
+    const U u;
+    const auto one = hn::Set(u, 1);
+    const auto inside = hn::Le(enter[0], t_in);
+    unsure = hn::And(unsure, lanes);
+    t = hn::IfThenElse(inside, leave[0], enter[0]);
+    met = hn::And(hn::AndNot(unsure, lanes), hn::And(hn::Gt(t, t_in), hn::Le(t, t_out)));
+    crowded = hn::Lt(t_in, t_in);  // none
+    enters = hn::Not(inside);
+    before = hn::And(hn::Shr(table, hn::IfThenElseZero(hn::RebindMask(u, inside), one)), one);
+    behind = hn::Xor(before, one);
+    place = hn::Zero(u);
+  }
+
+  static HWY_INLINE hn::Vec<D> Earliest(std::uint32_t count, const hn::Vec<D>* next) {
+    auto first = hn::Set(D(), never);
+    for (std::uint32_t i = 0; i < count; ++i) first = hn::Min(first, next[i]);
+    return first;
+  }
+
   template <std::size_t bits>
   static HWY_INLINE hn::Vec<U> ValueOf(const hn::Vec<U> (&tables)[bits], hn::Vec<U> state) {
     const U u;
