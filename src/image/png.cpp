@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "image/display_levels.h"
 #include "tenon/image/picture_file.h"
 #include "tenon/math/color.h"
 
@@ -57,11 +58,7 @@ std::vector<png_text> text_chunks(std::span<const PictureNote> notes) {
   return chunks;
 }
 
-void put(double encoded, int bits, std::uint8_t*& out) {
-  if (bits == 8) {
-    *out++ = static_cast<std::uint8_t>(std::lround(encoded * 255));
-    return;
-  }
+void put_16(double encoded, std::uint8_t*& out) {
   const auto value = static_cast<std::uint32_t>(std::lround(encoded * 65535));
   *out++ = static_cast<std::uint8_t>(value >> 8U);
   *out++ = static_cast<std::uint8_t>(value & 0xFFU);
@@ -69,12 +66,24 @@ void put(double encoded, int bits, std::uint8_t*& out) {
 
 // A row of pixels, most significant byte first. Alpha is a share, not light: it is not sRGB-encoded.
 void encode_row(const DisplayPicture& picture, int y, int bits, std::uint8_t* out) {
+  const DisplayLevels& levels = DisplayLevels::instance();
   const std::size_t begin = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width);
   for (std::size_t i = begin; i < begin + static_cast<std::size_t>(picture.width); ++i) {
-    for (std::size_t c = 0; c < 3; ++c) put(srgb_from_linear(static_cast<double>(picture.rgb[3 * i + c])), bits, out);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float light = picture.rgb[3 * i + c];
+      if (bits == 8) {
+        *out++ = levels.of(light);
+      } else {
+        put_16(srgb_from_linear(static_cast<double>(light)), out);
+      }
+    }
     if (picture.alpha.empty()) continue;
-    const float alpha = picture.alpha[i];
-    put(alpha > 0 ? std::min(1.0, static_cast<double>(alpha)) : 0, bits, out);
+    const double alpha = picture.alpha[i] > 0 ? std::min(1.0, static_cast<double>(picture.alpha[i])) : 0;
+    if (bits == 8) {
+      *out++ = static_cast<std::uint8_t>(std::lround(alpha * 255));
+    } else {
+      put_16(alpha, out);
+    }
   }
 }
 
