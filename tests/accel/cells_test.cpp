@@ -287,14 +287,26 @@ TEST(Cells, BlocksWhoseRaysGoApartSayWhatSingleRaysSay) {
     found += hit.found();
     ASSERT_TRUE(battery::same_hit(hit, hits[i])) << battery::describe(hit) << " against " << battery::describe(hits[i]);
     ASSERT_EQ(boundaries[i].t, hit.t);
+    ASSERT_EQ(boundaries[i].entering, hit.found() && hit.entering);
     ASSERT_EQ(occluded[i] != 0, hit.found());
   }
   EXPECT_GT(found, queries.size() / 4);
   EXPECT_LT(found, queries.size());
+  // What lies at the end of a ray does not count.
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    if (hits[i].found()) queries[i].t_max = hits[i].t;
+  }
+  const auto at_end = ask_together(**judged, queries, *other);
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    ASSERT_FALSE(at_end.hits[i].found());
+    ASSERT_FALSE(at_end.boundaries[i].found());
+    ASSERT_FALSE(at_end.boundaries[i].entering);
+    ASSERT_EQ(at_end.occluded[i], 0);
+  }
 }
 
-// Shadow rays as a picture has them: those to one light after those to another, in runs of any length. Each run is a
-// block of its own, whatever follows it in its batch.
+// Shadow rays as a picture has them: those to one light after those to another, in runs of any length. Where runs are
+// long, a batch ends with each.
 TEST(Cells, RunsOfRaysToSeveralLightsSayWhatSingleRaysSay) {
   const CsgTree tree = gallery::random_scene(5, 24, 1.5);
   const auto none = build_accelerator("none", tree), judged = build_accelerator("cells", tree);

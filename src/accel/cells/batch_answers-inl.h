@@ -287,7 +287,9 @@ class BatchAnswers {
   template <class Sink>
   HWY_INLINE void Put(std::size_t i, double t, std::uint32_t face, std::size_t begin, const Sink& sink) const {
     if constexpr (Sink::wanted == Wanted::boundary) {
-      if (HWY_LIKELY(one_medium_)) return sink.put_known(begin + i, t, {found_.leaf(i), face}, found_.behind(i) != 0);
+      if (HWY_LIKELY(one_medium_)) {
+        return sink.put_known(begin + i, t, {found_.leaf(i), face}, t < never && found_.behind(i) != 0);
+      }
     }
     CellAnswer answer;
     answer.t = t;

@@ -164,6 +164,7 @@ struct BoundarySink {
   const std::vector<Run>& runs;  ///< of the scratch memory
 
   static constexpr Wanted wanted = Wanted::boundary;
+  /// What RayBoundary says, where that is certain. @param t  infinite where there is no boundary before the ray's end
   void put_known(std::size_t i, double t, const LeafFace& surface, bool enters) const {
     RayBoundary& boundary = boundaries[i];
     boundary.t = t;

@@ -135,13 +135,13 @@ struct RayBatch {
   std::size_t start_leaves = 0;  ///< of any ray, at most
 
  private:
-  // Such runs are blocks (BlockTracer); rays whose runs are shorter on average go all ways. By trial on the bench; it
-  // decides nothing but how long they take.
+  // Rays whose runs into one octant are shorter on average go all ways; longer ones are blocks (BlockTracer), or what
+  // is left of them. By trial on the bench; it decides nothing but how long they take.
   static constexpr std::size_t least_run = 16;
 
   // Rays to one light come before those to the next, so of those of a batch the first may go into one octant, and all
   // the others into another.
-  // @return how many go the same way as the first; all, where each goes a way of its own
+  // @return how many go the same way as the first; all, where such runs are short
   std::size_t FirstRun() const {
     const D d;
     std::uint64_t turns = 0;
