@@ -161,6 +161,8 @@ class BlockTracer {
   static constexpr std::size_t blocks_apart = 15;
   static constexpr int least_together = 24;
   static constexpr std::size_t least_waiting = 48;
+  // Rays of the next batch that are asked for at each step.
+  static constexpr std::size_t called_a_step = 8;
 
   void Walk() {
     visited_ = tests_ = 0;
@@ -174,7 +176,7 @@ class BlockTracer {
     Open(cells_.nodes.front(), top);
     std::uint64_t steps = 0;
     while (top != stack) {
-      rays_.CallLater(8);
+      rays_.CallLater(called_a_step);
       const Entry entry = *--top;
       // Every ray has its boundary by then.
       if (entry.key > longest_) continue;

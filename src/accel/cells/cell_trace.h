@@ -173,10 +173,8 @@ struct BoundarySink {
   }
   void put(std::size_t i, const CellAnswer& answer) const {
     const bool is_known = answer.kind == CellAnswer::Kind::boundary;
-    RayBoundary& boundary = boundaries[i];
-    boundary.t = is_known ? answer.t : std::numeric_limits<double>::infinity();
-    boundary.surface = answer.surface;
-    boundary.entering = is_known && enters(answer);
+    put_known(i, is_known ? answer.t : std::numeric_limits<double>::infinity(), answer.surface,
+              is_known && enters(answer));
     if (answer.kind == CellAnswer::Kind::unsure) unsure.push_back(static_cast<std::uint32_t>(i));
   }
 
