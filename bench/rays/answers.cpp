@@ -17,13 +17,14 @@ std::size_t count_disagreements(const std::vector<Answer>& a, const std::vector<
   return count;
 }
 
-Status save_answers(const RaySet& primary, const std::vector<Answer>& answers, const std::string& path) {
+Status save_answers(const RaySet& primary, const Tracer& tracer, const std::string& path) {
+  const std::vector<Answer> answers = tracer.answers();
   std::vector<float> rgb(3 * static_cast<std::size_t>(picture_width) * picture_height);
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const PixelPlace place = pixel_place(i);
     Rgb color{0.3, 0.4, 0.6};
     if (answers[i].hit) {
-      Vec3 n = answers[i].normal;
+      Vec3 n = tracer.normal(i);
       const double facing = dot(n, primary.rays[i].ray.direction);
       if (facing > 0) n = -n;
       const double light = 0.2 + 0.8 * std::fabs(facing);

@@ -14,6 +14,6 @@ std::size_t count_disagreements(const std::vector<Answer>& a, const std::vector<
 
 /// Saves what a contender says of the primary rays as a picture: colours are the normal's components, darker where
 /// the surface turns away.
-Status save_answers(const RaySet& primary, const std::vector<Answer>& answers, const std::string& path);
+Status save_answers(const RaySet& primary, const Tracer& tracer, const std::string& path);
 
 }  // namespace tenon::bench

@@ -73,10 +73,13 @@ class SingleTracer final : public Tracer {
     std::vector<Answer> all;
     all.reserve(rays_.size());
     for (const RTCRayHit& r : rays_) {
-      all.push_back({is_hit(shadow_, r.ray.tfar, r.hit.geomID), static_cast<double>(r.ray.tfar),
-                     normalize(Vec3{r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z})});
+      all.push_back({is_hit(shadow_, r.ray.tfar, r.hit.geomID), static_cast<double>(r.ray.tfar)});
     }
     return all;
+  }
+  Vec3 normal(std::size_t ray) const override {
+    const RTCHit& hit = rays_[ray].hit;
+    return normalize(Vec3{hit.Ng_x, hit.Ng_y, hit.Ng_z});
   }
   void unload() override { rays_ = {}; }
 
@@ -131,10 +134,14 @@ class PacketTracer final : public Tracer {
     for (std::size_t i = 0; i < count_; ++i) {
       const auto& p = packets_[i / Width];
       const std::size_t k = i % Width;
-      all.push_back({is_hit(shadow_, p.ray.tfar[k], p.hit.geomID[k]), static_cast<double>(p.ray.tfar[k]),
-                     normalize(Vec3{p.hit.Ng_x[k], p.hit.Ng_y[k], p.hit.Ng_z[k]})});
+      all.push_back({is_hit(shadow_, p.ray.tfar[k], p.hit.geomID[k]), static_cast<double>(p.ray.tfar[k])});
     }
     return all;
+  }
+  Vec3 normal(std::size_t ray) const override {
+    const auto& hit = packets_[ray / Width].hit;
+    const std::size_t k = ray % Width;
+    return normalize(Vec3{hit.Ng_x[k], hit.Ng_y[k], hit.Ng_z[k]});
   }
   void unload() override { packets_ = {}; }
 

@@ -7,8 +7,6 @@
 
 namespace tenon::bench {
 
-namespace {
-
 double trace_once(Tracer& tracer, const RaySet& set, int threads) {
   tracer.load(set, threads);
   const std::size_t blocks = (set.rays.size() + Tracer::block - 1) / Tracer::block;
@@ -24,8 +22,6 @@ double trace_once(Tracer& tracer, const RaySet& set, int threads) {
   parallel_for(blocks, threads, trace);
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
 }
-
-}  // namespace
 
 std::vector<Timing> time_tracers(std::span<const std::unique_ptr<Tracer>> tracers, const RaySet& set, int threads) {
   std::vector<std::string> names;

@@ -63,6 +63,7 @@ class AllCrossings final : public Tracer {
     }
   }
   std::vector<Answer> answers() const override { return {}; }
+  Vec3 normal(std::size_t) const override { return {}; }
   void unload() override { set_ = nullptr; }
 
   std::size_t crossings = 0;

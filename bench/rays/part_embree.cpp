@@ -92,7 +92,7 @@ class EmbreeDuel {
         std::string file = scene + "_" + tracer->name() + ".png";
         std::replace(file.begin(), file.end(), ' ', '_');
         std::replace(file.begin(), file.end(), ':', '_');
-        if (Status status = save_answers(set, answers, results_folder() + "/" + file); !status) return status;
+        if (Status status = save_answers(set, *tracer, results_folder() + "/" + file); !status) return status;
       }
       tracer->unload();
     }

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <map>
 
-#include "rays/answers.h"
 #include "rays/embree_tracer.h"
 #include "rays/mesh.h"
 #include "rays/parts.h"
+#include "rays/sampled_race.h"
 #include "rays/tenon_tracer.h"
 
 namespace tenon::bench {
@@ -74,7 +74,7 @@ Status compare_structures(const std::string& path, const PartOptions& options, R
   }
   for (const RaySet& set : make_ray_sets(*scene, *structures.front().accelerator, small_lift(*scene))) {
     if (set.rays.empty() || !options.traces(set.name())) continue;
-    const std::vector<Timing> timings = time_tracers(tracers, set, 1);
+    const auto& [timings, disagreements] = race_on_samples(tracers, set);
     double least = Box3::inf;
     for (const Timing& t : timings) {
       report.rate(scene->name, std::string(set.name()), t, set.rays.size(), &timings.front());
@@ -82,11 +82,9 @@ Status compare_structures(const std::string& path, const PartOptions& options, R
       if (!is_own) least = std::min(least, ratio(t, timings.front()));
     }
     if (least < Box3::inf) against_best[std::string(set.name())].push_back(least);
-    const std::vector<Answer> own = tracers.front()->answers();
-    for (const auto& tracer : tracers) {
-      const std::size_t differ = count_disagreements(own, tracer->answers(), set.kind);
-      if (differ > 0) report.note(tracer->name() + " DISAGREES on " + std::to_string(differ) + " rays");
-      tracer->unload();
+    for (std::size_t i = 0; i < tracers.size(); ++i) {
+      const std::size_t differ = disagreements[i];
+      if (differ > 0) report.note(tracers[i]->name() + " DISAGREES on " + std::to_string(differ) + " rays");
     }
   }
   return success();

@@ -24,18 +24,20 @@ void TenonTracer::trace(std::size_t begin, std::size_t end, int worker) {
   }
 }
 
-// Normals are for the picture, which is not timed.
 std::vector<Answer> TenonTracer::answers() const {
   std::vector<Answer> answers(boundaries_.size());
-  const auto context = accelerator_.make_context();
   for (std::size_t i = 0; i < answers.size(); ++i) {
     if (set_->kind == RayKind::shadow) {
       answers[i].hit = occluded_[i] != 0;
     } else if (boundaries_[i].found()) {
-      answers[i] = {true, boundaries_[i].t, accelerator_.first_hit(set_->rays[i], *context).normal};
+      answers[i] = {true, boundaries_[i].t};
     }
   }
   return answers;
+}
+
+Vec3 TenonTracer::normal(std::size_t ray) const {
+  return accelerator_.first_hit(set_->rays[ray], *contexts_.front()).normal;
 }
 
 void TenonTracer::unload() {

@@ -18,6 +18,7 @@ class TenonTracer final : public Tracer {
   void load(const RaySet& set, int threads) override;
   void trace(std::size_t begin, std::size_t end, int worker) override;
   std::vector<Answer> answers() const override;
+  Vec3 normal(std::size_t ray) const override;
   void unload() override;
 
  private:

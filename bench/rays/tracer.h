@@ -11,7 +11,6 @@ namespace tenon::bench {
 struct Answer {
   bool hit = false;
   double t = 0;
-  Vec3 normal;  ///< length 1; either side
 };
 
 /// One way to trace stored rays. Everything but trace() is outside of the timing.
@@ -29,6 +28,8 @@ class Tracer {
   /// Traces the rays from `begin` up to `end`; `begin` is a multiple of `block`.
   virtual void trace(std::size_t begin, std::size_t end, int worker) = 0;
   virtual std::vector<Answer> answers() const = 0;
+  /// Of the surface that a ray hits: length 1, either side.
+  virtual Vec3 normal(std::size_t ray) const = 0;
   /// Lets go of what load() took.
   virtual void unload() = 0;
 
