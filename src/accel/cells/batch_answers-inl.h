@@ -162,28 +162,46 @@ class BatchAnswers {
                             std::size_t begin, const Sink& sink) const {
     const D d;
     const RayLanes<D> rays = Rays([&](const double* values) { return hn::Load(d, values + at); });
-    const auto length = hn::Load(d, rays_.length + at);
-    CellChords<double_lanes> chords;
-    for (std::uint32_t i = 0; i < cell.leaf_count; ++i) {
-      const ShapeRef shape = cells_.shapes.of_leaf[cell.leaves[i].get()];
-      if (!has_chord(shape.kind())) return 0;
-      const auto chord = FindChord(d, rays, cells_.shapes, shape, -1, cells_.scale.reach, length);
-      lanes &= ~RayBatch::Bits(chord.unsure);
-      chords.Put(d, i, chord);
+    const auto length = hn::Load(d, rays_.length + at), near = hn::Load(d, rays_.near + at);
+    const auto about = hn::Add(hn::Load(d, found_.t + at), hn::Load(d, rays_.start + at));
+    HWY_ALIGN double t[Cell::most_tabled][double_lanes];
+    HWY_ALIGN double faces[Cell::most_tabled][double_lanes];
+    for (std::uint32_t place = 0; place < cell.leaf_count; ++place) {
+      const auto enters = found_.EnteringAmong(at, place), ends = hn::Or(enters, found_.LeavingAmong(at, place));
+      if ((RayBatch::Bits(ends) & lanes) == 0) continue;
+      const ShapeRef shape = cells_.shapes.of_leaf[cell.leaves[place].get()];
+      const auto take = [&]<class Shape>(const HugePageVector<Shape>& list) {
+        return SharedShape<D, Shape>(list[shape.index()]);
+      };
+      if (shape.kind() == ShapeKind::general || shape.kind() == ShapeKind::torus) return 0;
+      const CrossingLanes<D> end =
+          FindCrossing(d, rays, cells_.shapes, shape.kind(), take, -1, cells_.scale.reach, length, enters, about);
+      const auto sure = hn::AndNot(end.unsure, hn::Le(hn::Abs(hn::Sub(end.t, about)), near));
+      lanes &= ~RayBatch::Bits(hn::AndNot(sure, ends));
+      hn::Store(end.t, d, t[place]);
+      hn::Store(end.face, d, faces[place]);
     }
     std::uint64_t done = 0;
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
       const std::size_t i = at + lane;
       const RayQuery& query = rays_.queries[i];
-      const double near = rays_.near[i], t = found_.t[i] + rays_.start[i];
       const auto leaves = std::span(cell.leaves).first(cell.leaf_count);
       const bool starts_here = std::ranges::any_of(leaves, [&](LeafId leaf) { return start_face(query, leaf) >= 0; });
-      if (starts_here || !(t - 2 * near > near)) continue;
+      if (starts_here) continue;
+      const CoincidentEnds ends = found_.coincident(i);
+      CrossingGroup group;
+      for (std::uint32_t left = ends.entered() | ends.left(); left != 0; left &= left - 1) {
+        const auto place = static_cast<std::uint32_t>(std::countr_zero(left));
+        group.add({t[place][lane], place, (ends.entered() >> place & 1) != 0});
+      }
+      const auto face_at = [&](std::uint32_t place, bool) {
+        return LeafFace{cell.leaves[place], static_cast<std::uint32_t>(faces[place][lane])};
+      };
+      const double ray_near = rays_.near[i];
+      const GroupLimits limits{0.5 * ray_near, together_to_near_ * ray_near, Sink::wanted == Wanted::hit};
       CellAnswer answer;
-      const CellStretch stretch{t - 2 * near, t + 2 * near, 0.5 * near, together_to_near_ * near,
-                                Sink::wanted == Wanted::hit};
-      if (MeetChords(cells_, cell, chords, lane, stretch, runs, answer) != Outcome::met) continue;
+      if (!TellFoundGroup(cells_, cell, group, ends.after(), face_at, limits, runs, answer)) continue;
       answer.kind = answer.t < query.t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
       answer.cell = found_.cell(i);
       sink.put(begin + i, answer);
@@ -306,7 +324,7 @@ class BatchAnswers {
     if ((found_.unsure >> i & 1) != 0) return single.Trace(query, answer, statistics[query.kind]);
     answer.cell = found_.cell(i);
     answer.t = found_.t[i] + rays_.start[i];
-    if (found_.is_group(i)) return single.FinishGroup(query, answer);
+    if (found_.coincident(i).word != 0) return single.FinishGroup(query, answer);
     answer.surface = {found_.leaf(i), 0};
     answer.leaf_entering = found_.enters(i);
     found_.TakeValues(i, answer);

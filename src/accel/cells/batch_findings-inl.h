@@ -11,6 +11,7 @@
 
 #include <algorithm>
 
+#include "accel/cells/crossing_group.h"
 #include "accel/cells/ray_batch-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -32,8 +33,8 @@ class BatchFindings {
     Number t;
     Word cell, leaf;
     Word before, behind;  ///< the values of the cell's points
+    Word coincident;      ///< CoincidentEnds, where several faces coincide there
     Condition enters;     ///< the ray enters the leaf
-    Condition crowded;    ///< several faces coincide there
   };
   using Boundary = BoundaryOf<double, std::uint64_t, bool>;
   using Boundaries = BoundaryOf<hn::Vec<D>, hn::Vec<U>, hn::Mask<D>>;
@@ -52,12 +53,9 @@ class BatchFindings {
   std::uint32_t cell(std::size_t i) const { return static_cast<std::uint32_t>(place_[i] >> 32); }
   LeafId leaf(std::size_t i) const { return LeafId{static_cast<std::uint32_t>(place_[i])}; }
   bool enters(std::size_t i) const { return (how_[i] & entering) != 0; }
-  bool is_group(std::size_t i) const { return (how_[i] & group) != 0; }
+  CoincidentEnds coincident(std::size_t i) const { return {static_cast<std::uint32_t>(how_[i] >> coincident_bits)}; }
   /// Of the rays in a vector of lanes those that enter their leaf.
-  hn::Mask<D> Entering(std::size_t at) const {
-    const U u;
-    return hn::RebindMask(D(), hn::TestBit(hn::Load(u, &how_[at]), hn::Set(u, entering)));
-  }
+  hn::Mask<D> Entering(std::size_t at) const { return HasBit(at, 0); }
   /// The value of the points behind the boundary.
   std::uint8_t behind(std::size_t i) const { return static_cast<std::uint8_t>(how_[i] >> behind_bits); }
   void TakeValues(std::size_t i, CellAnswer& answer) const {
@@ -71,7 +69,15 @@ class BatchFindings {
   }
   /// Those at whose boundary several faces coincide.
   std::uint64_t Groups(std::size_t padded) const {
-    return Where(padded, [&](U u, std::size_t i) { return hn::TestBit(hn::Load(u, &how_[i]), hn::Set(u, group)); });
+    return Where(padded, [&](U u, std::size_t i) {
+      return hn::Ne(hn::ShiftRight<coincident_bits>(hn::Load(u, &how_[i])), hn::Zero(u));
+    });
+  }
+  /// Of the rays in a vector of lanes those that enter, or leave, a leaf at whose boundary several faces coincide.
+  /// @param place  of that leaf in the cell
+  hn::Mask<D> EnteringAmong(std::size_t at, std::uint32_t place) const { return HasBit(at, coincident_bits + place); }
+  hn::Mask<D> LeavingAmong(std::size_t at, std::uint32_t place) const {
+    return HasBit(at, coincident_bits + CoincidentEnds::left_shift + place);
   }
   /// Of the rays in a vector of lanes those whose boundary lies on the same leaf as that of ray i, or in the same cell.
   std::uint32_t SameLeaf(std::size_t at, std::size_t i) const { return SamePlace(at, i, 0xffffffff); }
@@ -83,8 +89,8 @@ class BatchFindings {
     if (!(boundary.t < t[i])) return;
     t[i] = boundary.t;
     place_[i] = boundary.cell << 32 | boundary.leaf;
-    how_[i] = (boundary.enters ? entering : 0) | (boundary.crowded ? group : 0) | boundary.before << before_bits |
-              boundary.behind << behind_bits;
+    how_[i] = (boundary.enters ? entering : 0) | boundary.before << before_bits | boundary.behind << behind_bits |
+              boundary.coincident << coincident_bits;
     // Rounded up, for cells whose boxes overlap by the slack.
     const bool is_done = any_will_do && boundary.t + rays.start[i] + 2 * rays.near[i] < rays.end[i];
     rays.box_end[i] = is_done ? -1 : std::min(rays.box_end[i], static_cast<float>(boundary.t * rounded_up));
@@ -102,7 +108,7 @@ class BatchFindings {
     const auto place = hn::Or(hn::ShiftLeft<32>(boundary.cell), boundary.leaf);
     hn::Store(hn::IfThenElse(keep, place, hn::Load(u, &place_[at])), u, &place_[at]);
     const auto flags = hn::Or(hn::IfThenElseZero(hn::RebindMask(u, boundary.enters), hn::Set(u, entering)),
-                              hn::IfThenElseZero(hn::RebindMask(u, boundary.crowded), hn::Set(u, group)));
+                              hn::ShiftLeft<coincident_bits>(boundary.coincident));
     const auto values =
         hn::Or(hn::ShiftLeft<before_bits>(boundary.before), hn::ShiftLeft<behind_bits>(boundary.behind));
     hn::Store(hn::IfThenElse(keep, hn::Or(flags, values), hn::Load(u, &how_[at])), u, &how_[at]);
@@ -126,8 +132,9 @@ class BatchFindings {
   }
 
  private:
-  static constexpr std::uint64_t entering = 1, group = 2;
-  static constexpr int before_bits = 8, behind_bits = 16;
+  static constexpr std::uint64_t entering = 1;
+  static constexpr int before_bits = 8, behind_bits = 16, coincident_bits = 24;
+  static_assert(coincident_bits + CoincidentEnds::bits <= 64);
   static constexpr std::uint64_t nowhere = ~std::uint64_t{0};
   static constexpr double rounded_up = 1 + 0x1p-20;
 
@@ -140,6 +147,11 @@ class BatchFindings {
     return rays;
   }
 
+  hn::Mask<D> HasBit(std::size_t at, std::uint32_t bit) const {
+    const U u;
+    return hn::RebindMask(D(), hn::TestBit(hn::Load(u, &how_[at]), hn::Set(u, std::uint64_t{1} << bit)));
+  }
+
   std::uint32_t SamePlace(std::size_t at, std::size_t i, std::uint64_t part) const {
     const U u;
     const auto mask = hn::Set(u, part);
@@ -148,7 +160,7 @@ class BatchFindings {
   }
 
   HWY_ALIGN std::uint64_t place_[RayBatch::most_rays];  // the cell, in the upper half, and the leaf; or `nowhere`
-  HWY_ALIGN std::uint64_t how_[RayBatch::most_rays];    // `entering`, `group`, and from these bits on, the values
+  HWY_ALIGN std::uint64_t how_[RayBatch::most_rays];    // `entering`, and from these bits on, values and CoincidentEnds
 };
 
 }  // namespace HWY_NAMESPACE

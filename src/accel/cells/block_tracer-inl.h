@@ -304,8 +304,8 @@ class BlockTracer {
     for (std::uint32_t i = 1; i < count; ++i) {
       leaf = hn::IfThenElse(hn::Eq(walk.place, hn::Set(u, i)), hn::Set(u, cell.leaves[i].get()), leaf);
     }
-    const BatchFindings::Boundaries boundaries{walk.t,      hn::Set(u, index), leaf,        walk.before,
-                                               walk.behind, walk.enters,       walk.crowded};
+    const BatchFindings::Boundaries boundaries{walk.t,      hn::Set(u, index), leaf,       walk.before,
+                                               walk.behind, walk.coincident,   walk.enters};
     return found_.Keep(rays_, at, walk.met, boundaries, any_will_do_) || shorter;
   }
 

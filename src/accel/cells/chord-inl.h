@@ -18,37 +18,32 @@ namespace tenon::cells {
 namespace HWY_NAMESPACE {
 
 /// The part of a ray's line inside a convex solid: both its crossings.
-template <class D>
-struct ChordLanes {
-  CrossingLanes<D> enter, leave;
-  hn::Mask<D> hit, unsure;
+struct Chord {
+  CrossingLanes<One> enter, leave;
+  bool hit, unsure;
 };
 
-/// @param shape    one that has chords, for all rays
-/// @param on_face  the face that the ray starts on, or -1; one lane then
-/// @param length   of the rays' directions
-template <class D>
-HWY_INLINE ChordLanes<D> FindChord(D d, const RayLanes<D>& ray, const PlacedShapes& shapes, ShapeRef shape, int on_face,
-                                   double reach, hn::Vec<D> length) {
+/// @param shape    one that has chords
+/// @param on_face  the face that the ray starts on, or -1
+/// @param length   of the ray's direction
+HWY_INLINE Chord FindChord(const RayLanes<One>& ray, const PlacedShapes& shapes, ShapeRef shape, int on_face,
+                           double reach, double length) {
   const auto take = [&]<class Shape>(const HugePageVector<Shape>& list) {
-    return SharedShape<D, Shape>(list[shape.index()]);
+    return SharedShape<One, Shape>(list[shape.index()]);
   };
-  const auto all = hn::Eq(length, length);
-  ChordLanes<D> chord;
+  Chord chord;
   // Of two chords none is told.
-  const auto nowhere = hn::Set(d, std::numeric_limits<double>::quiet_NaN());
-  const auto find = [&](hn::Mask<D> enters) HWY_ATTR {
-    return FindCrossing(d, ray, shapes, shape.kind(), take, on_face, reach, length, enters, nowhere);
+  constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+  const auto find = [&](bool enters) HWY_ATTR {
+    return FindCrossing(One(), ray, shapes, shape.kind(), take, on_face, reach, length, enters, nowhere);
   };
-  chord.enter = find(all);
-  chord.leave = find(hn::Not(all));
+  chord.enter = find(true);
+  chord.leave = find(false);
   // Ends that lie so near to each other that either may come first.
-  const auto width = hn::Sub(chord.leave.t, chord.enter.t);
-  const auto least = hn::Mul(hn::Set(d, 4.0), ray.resolution);
-  const auto hit = hn::And(chord.enter.hit, chord.leave.hit);
-  const auto unsure = hn::Or(chord.enter.unsure, chord.leave.unsure);
-  chord.unsure = hn::Or(unsure, hn::And(hit, hn::Not(hn::Gt(hn::Abs(width), least))));
-  chord.hit = hn::And(hit, hn::Gt(width, hn::Zero(d)));
+  const double width = chord.leave.t - chord.enter.t;
+  const bool hit = chord.enter.hit && chord.leave.hit;
+  chord.unsure = chord.enter.unsure || chord.leave.unsure || (hit && !(std::fabs(width) > 4 * ray.resolution));
+  chord.hit = hit && width > 0;
   return chord;
 }
 

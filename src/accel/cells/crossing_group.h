@@ -10,6 +10,18 @@
 
 namespace tenon::cells {
 
+/// Which ends of a cell's leaves coincide, and the state behind them, as one word.
+struct CoincidentEnds {
+  static constexpr int left_shift = Cell::most_tabled, after_shift = 2 * Cell::most_tabled;
+  static constexpr int bits = 3 * Cell::most_tabled;
+  static constexpr std::uint32_t all_places = (1U << Cell::most_tabled) - 1;
+  std::uint32_t word = 0;  ///< 0: none do
+
+  std::uint32_t entered() const { return word & all_places; }
+  std::uint32_t left() const { return word >> left_shift & all_places; }
+  std::uint32_t after() const { return word >> after_shift & all_places; }
+};
+
 /// Crossings of a cell's leaves that certainly form one run: their bounds are at least the scene's tolerance, and they
 /// are no further apart. The rules are those of the classifier, on a cell's table: `value_of(state)` is what it says.
 struct CrossingGroup {

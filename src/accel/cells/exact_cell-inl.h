@@ -49,27 +49,23 @@ struct AskedRay {
   }
 };
 
-/// The exact chords of a cell's leaves, by place, one ray a lane; infinite where a leaf is not met.
-template <std::size_t lanes>
+/// The exact chords of a cell's leaves, by place; infinite where a leaf is not met.
 struct CellChords {
-  HWY_ALIGN double enter[Cell::most_tabled][lanes];
-  HWY_ALIGN double leave[Cell::most_tabled][lanes];
-  HWY_ALIGN double enter_face[Cell::most_tabled][lanes];
-  HWY_ALIGN double leave_face[Cell::most_tabled][lanes];
+  double enter[Cell::most_tabled], leave[Cell::most_tabled];
+  double enter_face[Cell::most_tabled], leave_face[Cell::most_tabled];
 
-  template <class D>
-  HWY_INLINE void Put(D d, std::uint32_t place, const ChordLanes<D>& chord) {
-    const auto never = hn::Set(d, std::numeric_limits<double>::infinity());
-    hn::Store(hn::IfThenElse(chord.hit, chord.enter.t, never), d, enter[place]);
-    hn::Store(hn::IfThenElse(chord.hit, chord.leave.t, never), d, leave[place]);
-    hn::Store(chord.enter.face, d, enter_face[place]);
-    hn::Store(chord.leave.face, d, leave_face[place]);
+  void Put(std::uint32_t place, const Chord& chord) {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    enter[place] = chord.hit ? chord.enter.t : never;
+    leave[place] = chord.hit ? chord.leave.t : never;
+    enter_face[place] = chord.enter.face;
+    leave_face[place] = chord.leave.face;
   }
 };
 
-/// What is asked of a ray in a cell. The resolution and the scene's tolerance are those along the ray.
-struct CellStretch {
-  double t_in, t_out, resolution, together;
+/// What faces that coincide are told by. The resolution and the scene's tolerance are those along the ray.
+struct GroupLimits {
+  double resolution, together;
   bool wants_faces;  ///< whether to keep all faces that coincide, as the classifier would
 };
 
@@ -89,7 +85,7 @@ HWY_INLINE auto WithValues(const CellStore& cells, const Cell& cell, const Body&
 /// @param face_at  face_at(place, entering) -> LeafFace: what is crossed of the leaf at a place
 template <class ValueOf, class FaceAt>
 void TellGroup(const CellStore& cells, const Cell& cell, const ValueOf& value_of, const CrossingGroup& group,
-               std::uint32_t after, const FaceAt& face_at, const CellStretch& stretch, std::vector<Run>& runs,
+               std::uint32_t after, const FaceAt& face_at, const GroupLimits& limits, std::vector<Run>& runs,
                CellAnswer& answer) {
   const std::uint32_t faces = group.faces(value_of, after);
   const CrossingGroup::End shown = group.shown(value_of, after, faces);
@@ -98,11 +94,11 @@ void TellGroup(const CellStore& cells, const Cell& cell, const ValueOf& value_of
   answer.before = static_cast<std::uint8_t>(value_of(group.before(after)));
   answer.after = static_cast<std::uint8_t>(value_of(after));
   answer.surface = face_at(shown.place, shown.entering);
-  if (!stretch.wants_faces || std::popcount(faces) < 2) return;
+  if (!limits.wants_faces || std::popcount(faces) < 2) return;
   answer.run = static_cast<std::uint32_t>(runs.size());
   Run& run = runs.emplace_back();
   run.t = answer.t;
-  run.bound = stretch.resolution;
+  run.bound = limits.resolution;
   run.surface = answer.surface;
   run.leaf_entering = answer.leaf_entering;
   run.before = cells.medium_of(cell, answer.before);
@@ -114,27 +110,41 @@ void TellGroup(const CellStore& cells, const Cell& cell, const ValueOf& value_of
   }
 }
 
-/// The first boundary of the ray in a lane, several faces of which may coincide.
-template <std::size_t lanes, class ValueOf>
-Outcome MeetChords(const CellStore& cells, const Cell& cell, const ValueOf& value_of, const CellChords<lanes>& chords,
-                   std::size_t lane, const CellStretch& stretch, std::vector<Run>& runs, CellAnswer& answer) {
+/// The same for crossings that were found one by one. @return false where they are not certainly one boundary
+template <class FaceAt>
+bool TellFoundGroup(const CellStore& cells, const Cell& cell, const CrossingGroup& group, std::uint32_t after,
+                    const FaceAt& face_at, const GroupLimits& limits, std::vector<Run>& runs, CellAnswer& answer) {
+  return WithValues(cells, cell, [&](const auto& value_of) {
+    const double t = group.first_change(value_of, after).t;
+    for (const CrossingGroup::End& end : group.all()) {
+      if (!(std::fabs(end.t - t) <= limits.together)) return false;
+    }
+    TellGroup(cells, cell, value_of, group, after, face_at, limits, runs, answer);
+    return true;
+  });
+}
+
+/// The first boundary of a ray, several faces of which may coincide.
+template <class ValueOf>
+Outcome MeetChords(const CellStore& cells, const Cell& cell, const ValueOf& value_of, const CellChords& chords,
+                   double t_in, double t_out, const GroupLimits& limits, std::vector<Run>& runs, CellAnswer& answer) {
   constexpr double never = std::numeric_limits<double>::infinity();
-  const double near = 2 * stretch.resolution;
+  const double near = 2 * limits.resolution;
   double enter[Cell::most_tabled], leave[Cell::most_tabled], next[Cell::most_tabled];
   std::uint32_t state = 0;
   const std::uint32_t count = cell.leaf_count;
   for (std::uint32_t i = 0; i < count; ++i) {
-    enter[i] = chords.enter[i][lane];
-    leave[i] = chords.leave[i][lane];
-    const bool inside = enter[i] <= stretch.t_in && stretch.t_in < leave[i];
+    enter[i] = chords.enter[i];
+    leave[i] = chords.leave[i];
+    const bool inside = enter[i] <= t_in && t_in < leave[i];
     state |= static_cast<std::uint32_t>(inside) << i;
-    next[i] = inside ? leave[i] : enter[i] > stretch.t_in ? enter[i] : never;
+    next[i] = inside ? leave[i] : enter[i] > t_in ? enter[i] : never;
   }
   const std::uint32_t before = value_of(state);
   for (;;) {
     double t = next[0];
     for (std::uint32_t i = 1; i < count; ++i) t = std::min(t, next[i]);
-    if (!(t <= stretch.t_out)) return Outcome::passed;
+    if (!(t <= t_out)) return Outcome::passed;
     // Crossings at the same double are one step: a change that is undone there is none.
     for (std::uint32_t i = 0; i < count; ++i) {
       if (next[i] != t) continue;
@@ -143,7 +153,7 @@ Outcome MeetChords(const CellStore& cells, const Cell& cell, const ValueOf& valu
     }
     if (value_of(state) == before) continue;
     CrossingGroup group;
-    if (!group.collect(count, enter, leave, t, near, stretch.together)) return Outcome::unsure;
+    if (!group.collect(count, enter, leave, t, near, limits.together)) return Outcome::unsure;
     const std::uint32_t after = group.after(state);
     if (value_of(after) == before) {
       group.skip(leave, next);
@@ -151,20 +161,12 @@ Outcome MeetChords(const CellStore& cells, const Cell& cell, const ValueOf& valu
       continue;
     }
     const auto face_at = [&](std::uint32_t place, bool entering) {
-      const double face = (entering ? chords.enter_face : chords.leave_face)[place][lane];
+      const double face = (entering ? chords.enter_face : chords.leave_face)[place];
       return LeafFace{cell.leaves[place], static_cast<std::uint32_t>(face)};
     };
-    TellGroup(cells, cell, value_of, group, after, face_at, stretch, runs, answer);
+    TellGroup(cells, cell, value_of, group, after, face_at, limits, runs, answer);
     return Outcome::met;
   }
-}
-
-template <std::size_t lanes>
-Outcome MeetChords(const CellStore& cells, const Cell& cell, const CellChords<lanes>& chords, std::size_t lane,
-                   const CellStretch& stretch, std::vector<Run>& runs, CellAnswer& answer) {
-  return WithValues(cells, cell, [&](const auto& value_of) {
-    return MeetChords(cells, cell, value_of, chords, lane, stretch, runs, answer);
-  });
 }
 
 /// Follows one ray through one cell after another, exactly. Here t is that of the ray as it was asked.
@@ -220,36 +222,31 @@ class ExactCell {
       group.add({crossing.t, end.place, end.entering});
       faces[end.place] = crossing.surface.face;
     }
-    return WithValues(cells_, cell, [&](const auto& value_of) {
-      const double t = group.first_change(value_of, after).t;
-      for (const CrossingGroup::End& end : group.all()) {
-        if (!(std::fabs(end.t - t) <= ray_.together)) return false;
-      }
-      const auto face_at = [&](std::uint32_t place, bool) { return LeafFace{cell.leaves[place], faces[place]}; };
-      const CellStretch stretch{t, t, ray_.resolution(), ray_.together, wants_faces};
-      TellGroup(cells_, cell, value_of, group, after, face_at, stretch, scratch_.runs, answer);
-      return true;
-    });
+    const auto face_at = [&](std::uint32_t place, bool) { return LeafFace{cell.leaves[place], faces[place]}; };
+    const GroupLimits limits{ray_.resolution(), ray_.together, wants_faces};
+    return TellFoundGroup(cells_, cell, group, after, face_at, limits, scratch_.runs, answer);
   }
 
   /// The first boundary in a cell whose leaves all have chords, several of which coincide there.
   /// @param wants_faces  whether to keep all faces that do, as the classifier would
   HWY_NOINLINE Outcome Meet(const Cell& cell, double t_in, double t_out, bool wants_faces, CellAnswer& answer) {
     const double near = ray_.near;
-    CellChords<1> chords;
+    CellChords chords;
     for (std::uint32_t i = 0; i < cell.leaf_count; ++i) {
       const ShapeRef shape = cells_.shapes.of_leaf[cell.leaves[i].get()];
       if (!has_chord(shape.kind())) return Outcome::unsure;
       const int on_face = start_face(*ray_.query, cell.leaves[i]);
-      const ChordLanes<One> chord = Chord(shape, on_face);
+      const Chord chord = FindChord(ray_.lanes(), cells_.shapes, shape, on_face, cells_.scale.reach, ray_.length);
       if (chord.unsure) return Outcome::unsure;
-      chords.Put(One(), i, chord);
+      chords.Put(i, chord);
       const bool is_clear =
-          t_in - ray_.begin > near || StartIsClear(chords.enter[i][0], chords.leave[i][0], on_face, ray_.begin, near);
+          t_in - ray_.begin > near || StartIsClear(chords.enter[i], chords.leave[i], on_face, ray_.begin, near);
       if (!is_clear) return Outcome::unsure;
     }
-    return MeetChords(cells_, cell, chords, 0, {t_in, t_out, ray_.resolution(), ray_.together, wants_faces},
-                      scratch_.runs, answer);
+    const GroupLimits limits{ray_.resolution(), ray_.together, wants_faces};
+    return WithValues(cells_, cell, [&](const auto& value_of) {
+      return MeetChords(cells_, cell, value_of, chords, t_in, t_out, limits, scratch_.runs, answer);
+    });
   }
 
   /// Has the classifier follow the ray through the cell, with the bounds of all crossings.
@@ -335,10 +332,6 @@ class ExactCell {
   std::uint64_t TakeTests() { return std::exchange(tests_, 0); }
 
  private:
-  ChordLanes<One> Chord(ShapeRef shape, int on_face) const {
-    return FindChord(One(), ray_.lanes(), cells_.shapes, shape, on_face, cells_.scale.reach, ray_.length);
-  }
-
   // That of a leaf which plain arithmetic has found.
   HWY_INLINE CrossingLanes<One> OneCrossing(ShapeRef shape, int on_face, const CellAnswer& answer) const {
     const bool enters = answer.leaf_entering;

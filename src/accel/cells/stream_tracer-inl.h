@@ -317,8 +317,10 @@ class StreamTracer {
     hn::Store(walk.place, u, place);
     hn::Store(walk.before, u, before);
     hn::Store(walk.behind, u, behind);
+    HWY_ALIGN std::uint64_t coincident[double_lanes];
+    hn::Store(walk.coincident, u, coincident);
     const std::uint32_t unsure = RayBatch::Bits(walk.unsure), met = RayBatch::Bits(walk.met),
-                        enters = RayBatch::Bits(walk.enters), crowded = RayBatch::Bits(walk.crowded);
+                        enters = RayBatch::Bits(walk.enters);
     for (std::size_t lane = 0; lane < here; ++lane) {
       const std::uint8_t slot = slot_[at + lane];
       if (((unsure >> lane & 1) | unsure_[at + lane]) != 0) {
@@ -328,7 +330,7 @@ class StreamTracer {
         const std::uint32_t index = slots_[slot].index;
         found_.Keep(rays_, i,
                     {t[lane], index, cells_.cells[index].leaves[static_cast<std::size_t>(place[lane])].get(),
-                     before[lane], behind[lane], (enters >> lane & 1) != 0, (crowded >> lane & 1) != 0},
+                     before[lane], behind[lane], coincident[lane], (enters >> lane & 1) != 0},
                     any_will_do_);
         if (Refill(slot)) Advance(slot);
       } else {

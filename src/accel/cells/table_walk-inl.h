@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "accel/cells/cell.h"
+#include "accel/cells/crossing_group.h"
 #include "accel/cells/scene_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,11 +29,11 @@ struct TableWalk {
   hn::Mask<D> unsure;  ///< told by whoever fills in the above, too
 
   hn::Mask<D> met;            ///< the value changes at t
-  hn::Mask<D> crowded;        ///< several faces coincide there
   hn::Mask<D> enters;         ///< the ray enters the leaf that it meets
   hn::Vec<U> before, behind;  ///< the values of the points before and behind
   hn::Vec<D> t;
-  hn::Vec<U> place;  ///< of the leaf that is met
+  hn::Vec<U> place;       ///< of the leaf that is met
+  hn::Vec<U> coincident;  ///< where several faces coincide there, CoincidentEnds
 
   static constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -60,9 +61,9 @@ struct TableWalk {
       next[i] = hn::IfThenElse(within[i], leave[i], ahead);
     }
     unsure = hn::And(unsure, lanes);
-    met = crowded = enters = hn::Lt(near, hn::Zero(d));  // none yet
+    met = enters = hn::Lt(near, hn::Zero(d));  // none yet
     t = nowhere;
-    place = before = behind = hn::Zero(u);
+    place = before = behind = coincident = hn::Zero(u);
     auto first = Earliest(count, next);
     auto active = hn::And(hn::AndNot(unsure, lanes), hn::Le(first, t_out));
     if (hn::AllFalse(d, active)) return;
@@ -92,11 +93,12 @@ struct TableWalk {
         const auto crowd = hn::AndNot(IsAlone(d, count, first, near), changed);
         if (!hn::AllFalse(d, crowd)) {
           hn::Mask<D> cancels, doubtful;
-          MeetGroup(d, count, first, near, together, crowd, table, start, state, next, cancels, doubtful);
+          hn::Vec<U> ends;
+          MeetGroup(d, count, first, near, together, crowd, table, start, state, next, cancels, doubtful, ends);
           unsure = hn::Or(unsure, doubtful);
           changed = hn::AndNot(hn::Or(cancels, doubtful), changed);
           active = hn::AndNot(doubtful, active);
-          crowded = hn::Or(crowded, hn::And(crowd, changed));
+          coincident = hn::IfThenElse(hn::RebindMask(u, hn::And(crowd, changed)), ends, coincident);
         }
       }
       t = hn::IfThenElse(changed, first, t);
@@ -116,11 +118,10 @@ struct TableWalk {
     unsure = hn::And(unsure, lanes);
     t = hn::IfThenElse(inside, leave[0], enter[0]);
     met = hn::And(hn::AndNot(unsure, lanes), hn::And(hn::Gt(t, t_in), hn::Le(t, t_out)));
-    crowded = hn::Lt(t_in, t_in);  // none
     enters = hn::Not(inside);
     before = hn::And(hn::Shr(table, hn::IfThenElseZero(hn::RebindMask(u, inside), one)), one);
     behind = hn::Xor(before, one);
-    place = hn::Zero(u);
+    place = coincident = hn::Zero(u);
   }
 
   static HWY_INLINE hn::Vec<D> Earliest(std::uint32_t count, const hn::Vec<D>* next) {
@@ -165,12 +166,14 @@ struct TableWalk {
 
   // CrossingGroup for the lanes of `crowd`: those in which it is not certain, and those in which its faces cancel,
   // whose state is then that behind it.
+  // @param ends  told of all of these lanes: CoincidentEnds
   HWY_NOINLINE void MeetGroup(D d, std::uint32_t count, hn::Vec<D> at, hn::Vec<D> near, hn::Vec<D> together,
                               hn::Mask<D> crowd, hn::Vec<U> table, hn::Vec<U> start, hn::Vec<U>& state,
-                              hn::Vec<D>* next, hn::Mask<D>& cancels, hn::Mask<D>& doubtful) const {
+                              hn::Vec<D>* next, hn::Mask<D>& cancels, hn::Mask<D>& doubtful, hn::Vec<U>& ends) const {
     const U u;
     doubtful = hn::Lt(near, hn::Zero(d));
     auto after = state;
+    ends = hn::Zero(u);
     hn::Mask<D> entered[Cell::most_tabled], left[Cell::most_tabled];
     for (std::uint32_t i = 0; i < count; ++i) {
       const auto from_enter = hn::Abs(hn::Sub(enter[i], at)), from_leave = hn::Abs(hn::Sub(leave[i], at));
@@ -181,7 +184,11 @@ struct TableWalk {
       const auto bit = hn::Set(u, std::uint64_t{1} << i);
       after = hn::IfThenElse(hn::RebindMask(u, entered[i]), hn::Or(after, bit), after);
       after = hn::IfThenElse(hn::RebindMask(u, left[i]), hn::AndNot(bit, after), after);
+      const auto left_bit = hn::Set(u, std::uint64_t{1} << (i + CoincidentEnds::left_shift));
+      ends = hn::Or(ends, hn::IfThenElseZero(hn::RebindMask(u, entered[i]), bit));
+      ends = hn::Or(ends, hn::IfThenElseZero(hn::RebindMask(u, left[i]), left_bit));
     }
+    ends = hn::Or(ends, hn::ShiftLeft<CoincidentEnds::after_shift>(after));
     doubtful = hn::And(doubtful, crowd);
     const auto value = hn::And(hn::Shr(table, after), hn::Set(u, 1));
     cancels = hn::AndNot(doubtful, hn::And(crowd, hn::RebindMask(d, hn::Eq(value, start))));
