@@ -17,6 +17,7 @@ struct SampledRace {
 /// Has contenders take turns of which the slow take a hundred times as long as the fast: who would need longer for a
 /// round than a tenth of a second traces a sample of the rays, in every round the same.
 /// @param tracers  one at least; they have no rays loaded afterwards
+/// @param set      of one ray at least
 SampledRace race_on_samples(std::span<const std::unique_ptr<Tracer>> tracers, const RaySet& set);
 
 }  // namespace tenon::bench

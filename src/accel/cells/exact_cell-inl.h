@@ -119,6 +119,8 @@ bool TellFoundGroup(const CellStore& cells, const Cell& cell, const CrossingGrou
     for (const CrossingGroup::End& end : group.all()) {
       if (!(std::fabs(end.t - t) <= limits.together)) return false;
     }
+    // So it may be where the ray was taken to come into the cell between two of them.
+    if (value_of(group.before(after)) == value_of(after)) return false;
     TellGroup(cells, cell, value_of, group, after, face_at, limits, runs, answer);
     return true;
   });
