@@ -75,9 +75,17 @@ SampledRace race_on_samples(std::span<const std::unique_ptr<Tracer>> tracers, co
     names.push_back(tracer->name());
     chosen.push_back(choose_sample(*tracer, rays));
   }
+  chosen.front() = 1;
   SampledRace race;
+  std::map<std::size_t, double> whole_to_sample;  // of this round
   race.timings = take_turns(names, rounds, [&](std::size_t i) {
-    return trace_once(*tracers[i], rays.one_in(chosen[i]), 1) * rays.rays_per_sampled(chosen[i]);
+    if (i != 0) return trace_once(*tracers[i], rays.one_in(chosen[i]), 1) * whole_to_sample[chosen[i]];
+    const double whole = trace_once(*tracers[i], set, 1);
+    whole_to_sample = {{1, 1}};
+    for (const std::size_t n : chosen) {
+      if (!whole_to_sample.contains(n)) whole_to_sample[n] = whole / trace_once(*tracers[i], rays.one_in(n), 1);
+    }
+    return whole;
   });
 
   // The first has to say something of every ray.

@@ -15,7 +15,9 @@ struct SampledRace {
 };
 
 /// Has contenders take turns of which the slow take a hundred times as long as the fast: who would need longer for a
-/// round than a tenth of a second traces a sample of the rays, in every round the same.
+/// round than a tenth of a second traces a sample of the rays, in every round the same. What part of all the work that
+/// is, the first contender tells, which traces both: so by chance easy rays make no difference to how the others stand
+/// to it (the ratio estimator; Cochran, "Sampling Techniques", 1977, chapter 6).
 /// @param tracers  one at least; they have no rays loaded afterwards
 /// @param set      of one ray at least
 SampledRace race_on_samples(std::span<const std::unique_ptr<Tracer>> tracers, const RaySet& set);

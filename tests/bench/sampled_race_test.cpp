@@ -50,7 +50,7 @@ class NumberTracer final : public Tracer {
 // 600 blocks of 2 ms would take longer than a tenth of a second twelve times over.
 TEST(SampledRace, HasTheSlowTraceASampleAndCountsAsIfTheyTracedAll) {
   std::vector<std::unique_ptr<Tracer>> tracers;
-  tracers.push_back(std::make_unique<NumberTracer>(1, 0));
+  tracers.push_back(std::make_unique<NumberTracer>(1, 0.0001));
   tracers.push_back(std::make_unique<NumberTracer>(1, 0.002));
   tracers.push_back(std::make_unique<NumberTracer>(1.5, 0.002));
   const RaySet set = numbered_rays();
@@ -61,11 +61,40 @@ TEST(SampledRace, HasTheSlowTraceASampleAndCountsAsIfTheyTracedAll) {
   EXPECT_LE(loaded(1), set.rays.size() / 12);
   ASSERT_EQ(race.timings.size(), 3U);
   ASSERT_EQ(race.timings[1].seconds.size(), 5U);
-  // All 600 blocks would have taken 1.2 s, or more where reading the clock is slow.
-  for (const double seconds : race.timings[1].seconds) EXPECT_GE(seconds, 0.99 * 0.002 * blocks);
+  // All 600 blocks would have taken 1.2 s, but for what reading the clock takes.
+  EXPECT_GT(race.timings[1].median(), 0.8 * 0.002 * blocks);
+  EXPECT_LT(race.timings[1].median(), 1.5 * 0.002 * blocks);
 
   EXPECT_EQ(race.disagreements, (std::vector<std::size_t>{0, 0, loaded(2)}));
   for (const auto& tracer : tracers) EXPECT_TRUE(dynamic_cast<const NumberTracer&>(*tracer).is_unloaded());
+}
+
+// Which by chance has more, or fewer, of the rays that take long.
+TEST(SampledRace, TellsBySampledRaysAsMuchAsTheirShareOfTheWork) {
+  class UnevenTracer final : public Tracer {
+   public:
+    explicit UnevenTracer(double seconds) : Tracer("uneven"), seconds_(seconds) {}
+    void load(const RaySet& set, int) override { set_ = &set; }
+    void trace(std::size_t begin, std::size_t, int) override {
+      // 21 is a Fibonacci number: but for the first one, all of these miss the samples.
+      const auto place = static_cast<std::size_t>(set_->rays[begin].ray.origin.x) / block;
+      const double begun = thread_cpu_seconds(), least = place % 21 == 0 ? 20 * seconds_ : seconds_;
+      while (thread_cpu_seconds() - begun < least) {
+      }
+    }
+    std::vector<Answer> answers() const override { return std::vector<Answer>(set_->rays.size()); }
+    Vec3 normal(std::size_t) const override { return {}; }
+    void unload() override {}
+
+   private:
+    const double seconds_;
+    const RaySet* set_ = nullptr;
+  };
+  std::vector<std::unique_ptr<Tracer>> tracers;
+  tracers.push_back(std::make_unique<UnevenTracer>(0.00002));
+  tracers.push_back(std::make_unique<UnevenTracer>(0.0004));
+  const SampledRace race = race_on_samples(tracers, numbered_rays());
+  EXPECT_NEAR(ratio(race.timings[1], race.timings[0]), 20, 3);
 }
 
 // Where a picture's rows are 40 blocks long, one in four in a row would be columns.
