@@ -157,57 +157,72 @@ class BatchAnswers {
     return finished;
   }
 
+  // Ends of a cell's leaves with their last bits, by place; those alone that coincide with others.
+  struct ExactEnds {
+    HWY_ALIGN double t[Cell::most_tabled][double_lanes];
+    HWY_ALIGN double face[Cell::most_tabled][double_lanes];
+  };
+
   template <class Sink>
   std::uint64_t FinishGroup(std::size_t at, const Cell& cell, std::uint32_t lanes, std::vector<Run>& runs,
                             std::size_t begin, const Sink& sink) const {
+    ExactEnds ends;
+    std::uint64_t done = 0;
+    for (lanes = FindEnds(at, cell, lanes, ends); lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      CellAnswer answer;
+      if (!TellEnds(at, lane, cell, ends, Sink::wanted == Wanted::hit, runs, answer)) continue;
+      sink.put(begin + at + lane, answer);
+      done |= std::uint64_t{1} << (at + lane);
+    }
+    return done;
+  }
+
+  // @return the lanes whose ends are all certain
+  std::uint32_t FindEnds(std::size_t at, const Cell& cell, std::uint32_t lanes, ExactEnds& found) const {
     const D d;
     const RayLanes<D> rays = Rays([&](const double* values) { return hn::Load(d, values + at); });
     const auto length = hn::Load(d, rays_.length + at), near = hn::Load(d, rays_.near + at);
     const auto about = hn::Add(hn::Load(d, found_.t + at), hn::Load(d, rays_.start + at));
-    HWY_ALIGN double t[Cell::most_tabled][double_lanes];
-    HWY_ALIGN double faces[Cell::most_tabled][double_lanes];
     for (std::uint32_t place = 0; place < cell.leaf_count; ++place) {
       const auto enters = found_.EnteringAmong(at, place), ends = hn::Or(enters, found_.LeavingAmong(at, place));
       if ((RayBatch::Bits(ends) & lanes) == 0) continue;
       const ShapeRef shape = cells_.shapes.of_leaf[cell.leaves[place].get()];
+      if (shape.kind() == ShapeKind::general || shape.kind() == ShapeKind::torus) return 0;
       const auto take = [&]<class Shape>(const HugePageVector<Shape>& list) {
         return SharedShape<D, Shape>(list[shape.index()]);
       };
-      if (shape.kind() == ShapeKind::general || shape.kind() == ShapeKind::torus) return 0;
       const CrossingLanes<D> end =
           FindCrossing(d, rays, cells_.shapes, shape.kind(), take, -1, cells_.scale.reach, length, enters, about);
       const auto sure = hn::AndNot(end.unsure, hn::Le(hn::Abs(hn::Sub(end.t, about)), near));
       lanes &= ~RayBatch::Bits(hn::AndNot(sure, ends));
-      hn::Store(end.t, d, t[place]);
-      hn::Store(end.face, d, faces[place]);
+      hn::Store(end.t, d, found.t[place]);
+      hn::Store(end.face, d, found.face[place]);
     }
-    std::uint64_t done = 0;
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      const std::size_t i = at + lane;
-      const RayQuery& query = rays_.queries[i];
-      const auto leaves = std::span(cell.leaves).first(cell.leaf_count);
-      const bool starts_here = std::ranges::any_of(leaves, [&](LeafId leaf) { return start_face(query, leaf) >= 0; });
-      if (starts_here) continue;
-      const CoincidentEnds ends = found_.coincident(i);
-      CrossingGroup group;
-      for (std::uint32_t left = ends.entered() | ends.left(); left != 0; left &= left - 1) {
-        const auto place = static_cast<std::uint32_t>(std::countr_zero(left));
-        group.add({t[place][lane], place, (ends.entered() >> place & 1) != 0});
-      }
-      const auto face_at = [&](std::uint32_t place, bool) {
-        return LeafFace{cell.leaves[place], static_cast<std::uint32_t>(faces[place][lane])};
-      };
-      const double ray_near = rays_.near[i];
-      const GroupLimits limits{0.5 * ray_near, together_to_near_ * ray_near, Sink::wanted == Wanted::hit};
-      CellAnswer answer;
-      if (!TellFoundGroup(cells_, cell, group, ends.after(), face_at, limits, runs, answer)) continue;
-      answer.kind = answer.t < query.t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
-      answer.cell = found_.cell(i);
-      sink.put(begin + i, answer);
-      done |= std::uint64_t{1} << i;
+    return lanes;
+  }
+
+  // What the ray in a lane meets. @return false where that is not certain, or it starts there
+  bool TellEnds(std::size_t at, std::size_t lane, const Cell& cell, const ExactEnds& found, bool wants_faces,
+                std::vector<Run>& runs, CellAnswer& answer) const {
+    const std::size_t i = at + lane;
+    const RayQuery& query = rays_.queries[i];
+    const auto leaves = std::span(cell.leaves).first(cell.leaf_count);
+    if (std::ranges::any_of(leaves, [&](LeafId leaf) { return start_face(query, leaf) >= 0; })) return false;
+    const CoincidentEnds ends = found_.coincident(i);
+    CrossingGroup group;
+    for (std::uint32_t left = ends.entered() | ends.left(); left != 0; left &= left - 1) {
+      const auto place = static_cast<std::uint32_t>(std::countr_zero(left));
+      group.add({found.t[place][lane], place, (ends.entered() >> place & 1) != 0});
     }
-    return done;
+    const auto face_at = [&](std::uint32_t place, bool) {
+      return LeafFace{cell.leaves[place], static_cast<std::uint32_t>(found.face[place][lane])};
+    };
+    const GroupLimits limits{0.5 * rays_.near[i], together_to_near_ * rays_.near[i], wants_faces};
+    if (!TellFoundGroup(cells_, cell, group, ends.after(), face_at, limits, runs, answer)) return false;
+    answer.kind = answer.t < query.t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
+    answer.cell = found_.cell(i);
+    return true;
   }
 
   template <class Sink>
