@@ -99,6 +99,43 @@ RaySet eightfold(RaySet set) {
   return set;
 }
 
+std::string sphere_label(int spheres) {
+  return std::to_string(spheres) + " spheres";
+}
+
+// A box minus some spheres, and its rays.
+struct GrowthScene {
+  GrowthScene(int n, BenchScene&& read, BuiltStructure&& structure)
+      : spheres(n), scene(std::move(read)), built(std::move(structure)), balls(bare_balls(scene.scene)) {}
+  std::string label() const { return sphere_label(spheres); }
+
+  int spheres;
+  BenchScene scene;
+  BuiltStructure built;
+  EmbreeScene balls;
+  std::vector<std::unique_ptr<Tracer>> tracers;
+  std::vector<RaySet> sets;
+};
+
+Result<std::unique_ptr<GrowthScene>> make_growth_scene(int spheres, const PartOptions& options, Report& report) {
+  const std::string label = sphere_label(spheres);
+  report.heading(label);
+  const auto begun = std::chrono::steady_clock::now();
+  Result<BenchScene> read = read_scene(scene_path("spheres"), {{"n", std::to_string(spheres)}});
+  if (!read) return read.error();
+  report.figure(label, "reading and compiling", seconds_since(begun), "s");
+  Result<BuiltStructure> built = build(options.accelerator, *read);
+  if (!built) return built.error();
+  report.figure(label, "building " + options.accelerator, built->seconds, "s");
+  report.figure(label, "memory of it", static_cast<double>(built->accelerator->figures().memory_bytes) / 0x1p20, "MiB");
+  auto scene = std::make_unique<GrowthScene>(spheres, std::move(*read), std::move(*built));
+  const Accelerator& accelerator = *scene->built.accelerator;
+  scene->tracers.push_back(std::make_unique<TenonTracer>(options.accelerator, accelerator));
+  scene->tracers.push_back(make_embree_tracer("embree 16 bare balls", scene->balls, 16));
+  scene->sets = make_ray_sets(scene->scene, accelerator, small_lift(scene->scene));
+  return scene;
+}
+
 }  // namespace
 
 Status run_structures(const PartOptions& options, Report& report) {
@@ -132,38 +169,44 @@ Status run_structures(const PartOptions& options, Report& report) {
   return success();
 }
 
-// What Embree does with the bare spheres shows what growth costs a structure that knows of no Booleans.
+// What Embree does with the bare spheres shows what growth costs a structure that knows of no Booleans. Scenes of all
+// sizes take turns: what slows the machine down for a while would else be taken for growth.
 Status run_growth(const PartOptions& options, Report& report) {
-  std::map<std::string, std::map<int, double>> rates;
+  std::vector<std::unique_ptr<GrowthScene>> scenes;
   for (int n = 100; n <= options.largest_growth; n *= 10) {
-    const std::string label = std::to_string(n) + " spheres";
-    report.heading(label);
-    const auto begun = std::chrono::steady_clock::now();
-    const Result<BenchScene> scene = read_scene(scene_path("spheres"), {{"n", std::to_string(n)}});
+    Result<std::unique_ptr<GrowthScene>> scene = make_growth_scene(n, options, report);
     if (!scene) return scene.error();
-    report.figure(label, "reading and compiling", seconds_since(begun), "s");
-    Result<BuiltStructure> built = build(options.accelerator, *scene);
-    if (!built) return built.error();
-    report.figure(label, "building " + options.accelerator, built->seconds, "s");
-    report.figure(label, "memory of it", static_cast<double>(built->accelerator->figures().memory_bytes) / 0x1p20,
-                  "MiB");
-    const EmbreeScene balls(bare_balls(scene->scene));
-    std::vector<std::unique_ptr<Tracer>> tracers;
-    tracers.push_back(std::make_unique<TenonTracer>(options.accelerator, *built->accelerator));
-    tracers.push_back(make_embree_tracer("embree 16 bare balls", balls, 16));
-    for (const RaySet& set : make_ray_sets(*scene, *built->accelerator, small_lift(*scene))) {
-      for (const Timing& timing : time_tracers(tracers, set, 1)) {
-        report.rate(label, std::string(set.name()), timing, set.rays.size());
-        rates[timing.name + ", " + std::string(set.name()) + " rays"][n] =
-            static_cast<double>(set.rays.size()) / timing.median();
+    scenes.push_back(std::move(*scene));
+  }
+  report.heading("all of them in turns");
+  std::map<std::string, std::map<int, Timing>> by_contender;  // of a ray, by number of spheres
+  for (std::size_t kind = 0; kind < ray_sets_of_a_scene; ++kind) {
+    std::vector<std::string> names;
+    std::vector<std::pair<const GrowthScene*, Tracer*>> contenders;
+    for (const auto& scene : scenes) {
+      for (const auto& tracer : scene->tracers) {
+        contenders.emplace_back(scene.get(), tracer.get());
+        names.push_back(tracer->name());
       }
+    }
+    std::vector<Timing> timings = take_turns(names, rounds, [&](std::size_t i) {
+      const auto& [scene, tracer] = contenders[i];
+      const double seconds = trace_once(*tracer, scene->sets[kind], 1);
+      tracer->unload();
+      return seconds;
+    });
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+      const GrowthScene& scene = *contenders[i].first;
+      const RaySet& set = scene.sets[kind];
+      report.rate(scene.label(), std::string(set.name()), timings[i], set.rays.size());
+      for (double& seconds : timings[i].seconds) seconds /= static_cast<double>(set.rays.size());
+      by_contender[names[i] + ", " + std::string(set.name()) + " rays"].emplace(scene.spheres, std::move(timings[i]));
     }
   }
   report.heading("how many times slower than with 1000 spheres");
-  for (const auto& [rays, by_n] : rates) {
-    for (const auto& [n, rate] : by_n) {
-      if (n > 1000 && by_n.contains(1000))
-        report.figure(std::to_string(n) + " spheres", rays, by_n.at(1000) / rate, "times");
+  for (const auto& [rays, by_n] : by_contender) {
+    for (const auto& [n, timing] : by_n) {
+      if (n > 1000) report.figure(sphere_label(n), rays, ratio(timing, by_n.at(1000)), "times");
     }
   }
   return success();

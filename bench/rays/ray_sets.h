@@ -23,6 +23,9 @@ struct PixelPlace {
 };
 PixelPlace pixel_place(std::size_t i);
 
+/// Of primary, shadow and diffuse rays.
+inline constexpr std::size_t ray_sets_of_a_scene = 3;
+
 /// Primary rays through the pixels' centres; from what they hit, a shadow ray to each light, tile by tile; and from
 /// each hit one ray in a random direction, cosine-distributed around the normal. The same on every machine.
 /// @param lift  rays from a hit start this far above it, so that a mesh, which lies as far as its error from the
