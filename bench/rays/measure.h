@@ -14,7 +14,7 @@ inline constexpr int rounds = 5;
 /// @param threads  with 1, seconds are CPU seconds; with more, seconds on the wall
 double trace_once(Tracer& tracer, const RaySet& set, int threads);
 
-/// Lets every contender trace the rays once a round, in turns.
+/// Lets every contender trace the rays once a round, in turns, by so many threads.
 std::vector<Timing> time_tracers(std::span<const std::unique_ptr<Tracer>> tracers, const RaySet& set, int threads);
 
 }  // namespace tenon::bench

@@ -73,9 +73,9 @@ SampledRace race_on_samples(std::span<const std::unique_ptr<Tracer>> tracers, co
   std::vector<std::size_t> chosen;
   for (const auto& tracer : tracers) {
     names.push_back(tracer->name());
-    chosen.push_back(choose_sample(*tracer, rays));
+    // The first traces all of them.
+    chosen.push_back(chosen.empty() ? 1 : choose_sample(*tracer, rays));
   }
-  chosen.front() = 1;
   SampledRace race;
   std::map<std::size_t, double> whole_to_sample;  // of this round
   race.timings = take_turns(names, rounds, [&](std::size_t i) {
