@@ -24,15 +24,18 @@ void describe_hit(const CsgTree& tree, const Ray& ray, bool leaf_entering, LeafI
   hit.entering = hit.after != medium_outside;
 
   const Vec3 local = leaf.placement.point_to_local(hit.point);
-  hit.normal = leaf.placement.normal_to_world(normal(tree.primitives, leaf.primitive, local, hit.surface.face));
+  const Vec3 outward = leaf.placement.normal_to_world(normal(tree.primitives, leaf.primitive, local, hit.surface.face));
   hit.material = face_material(tree, hit.surface, hit.point);
-  if (hit.is_surface) return;
+  if (hit.is_surface) {
+    hit.normal = outward;
+    return;
+  }
 
   // Where the ray crosses the leaf and the solid in opposite senses (a cut face, or the far side of one medium that is
-  // the near side of the next) the solid's outward normal is the other one. Subtracted from and added to zero, so that
-  // no component is -0, which JSON would print.
-  const bool opposite = leaf_entering != hit.entering;
-  hit.normal = opposite ? Vec3{} - hit.normal : Vec3{} + hit.normal;
+  // the near side of the next) the solid's outward normal is the other one. Added to zero, so that no component is -0,
+  // which JSON would print.
+  const double sense = leaf_entering == hit.entering ? 1 : -1;
+  hit.normal = Vec3{} + sense * outward;
   if ((!hit.material || leaf.shows_what_it_cut) && owner) hit.material = owner_material(tree, owner, hit.point);
   if (is_behind_glass(hit.before, hit.after) && owner) hit.material = owner_material(tree, owner, hit.point);
 }

@@ -38,8 +38,13 @@ FilmPlanes planes_for(std::size_t pixels, const Layers& layers) {
   return planes;
 }
 
-template <class Sum>
-void add_three(FilmPlanes::Three<Sum>& planes, std::size_t i, double a, double b, double c) {
+// Single precision has more digits than a pixel needs, and sums of it shrink well when they are stored.
+std::array<float, 3> stored(const Rgb& light) {
+  return {static_cast<float>(light.r), static_cast<float>(light.g), static_cast<float>(light.b)};
+}
+
+template <class Sum, class Number>
+void add_three(FilmPlanes::Three<Sum>& planes, std::size_t i, Number a, Number b, Number c) {
   if (planes[0].empty()) return;
   planes[0][i].add(a);
   planes[1][i].add(b);
@@ -81,17 +86,20 @@ void Film::fetch(const PixelWindow& pixels) const {
   });
 }
 
-void Film::add(int x, int y, const FilmSample& sample) {
+void Film::add(int x, int y, const Rgb& light, double alpha) {
   const std::size_t i = window_.index(x, y);
   ++planes_.samples[i];
-  // Single precision has more digits than a pixel needs, and sums of it shrink well when they are stored.
-  const auto r = static_cast<double>(static_cast<float>(sample.light.r));
-  const auto g = static_cast<double>(static_cast<float>(sample.light.g));
-  const auto b = static_cast<double>(static_cast<float>(sample.light.b));
+  const auto [r, g, b] = stored(light);
   add_three(planes_.light, i, r, g, b);
-  planes_.alpha[i].add(sample.alpha);
-  if (layers_.empty()) return;
-  add_three(planes_.squares, i, r * r, g * g, b * b);
+  planes_.alpha[i].add(alpha);
+}
+
+void Film::add(int x, int y, const FilmSample& sample) {
+  add(x, y, sample.light, sample.alpha);
+  const std::size_t i = window_.index(x, y);
+  const auto [r, g, b] = stored(sample.light);
+  const auto square = [](float v) { return static_cast<double>(v) * static_cast<double>(v); };
+  add_three(planes_.squares, i, square(r), square(g), square(b));
   if (sample.is_in_second_half && !planes_.second_samples.empty()) {
     ++planes_.second_samples[i];
     add_three(planes_.second_light, i, r, g, b);
@@ -100,7 +108,7 @@ void Film::add(int x, int y, const FilmSample& sample) {
   add_three(planes_.albedo, i, sample.albedo.r, sample.albedo.g, sample.albedo.b);
   if (!planes_.crossings.empty()) planes_.crossings[i] += sample.crossings;
   if (!planes_.path_length.empty()) {
-    planes_.path_length[i].add(static_cast<double>(static_cast<float>(sample.path_length)));
+    planes_.path_length[i].add(static_cast<float>(sample.path_length));
   }
   if (planes_.first.empty() || planes_.first[i] < sample.index) return;
   planes_.first[i] = sample.index;

@@ -40,9 +40,23 @@ LitLight::LitLight(const Light& light, const Environment* environment)
       area_(length(cross(light.edge_u, light.edge_v))),
       emitted_(light.intensity * linear_from_srgb(light.color)),
       environment_(environment) {
-  const bool is_even = environment_ != nullptr || kind_ == LightKind::directional ||
-                       (kind_ == LightKind::point && !(fade_distance_ > 0));
+  const bool is_even = environment_ != nullptr || kind_ == LightKind::directional || is_plain_point();
   if (is_even) even_importance_ = importance_at(position_);
+}
+
+void LitLight::at(const Vec3Block& points, std::size_t count, IncidentLightBlock& incident) const {
+  if (is_plain_point()) {
+    for (std::size_t i = 0; i < count; ++i) incident.to_light.set(i, position_ - points[i]);
+    for (std::size_t i = 0; i < count; ++i) incident.t_max[i] = 1;
+    for (std::size_t i = 0; i < count; ++i) incident.light.set(i, emitted_);
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const IncidentLight one = other_at(points[i]);
+    incident.to_light.set(i, one.to_light);
+    incident.t_max[i] = one.t_max;
+    incident.light.set(i, one.light);
+  }
 }
 
 IncidentLight LitLight::other_at(const Vec3& point) const {

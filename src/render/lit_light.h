@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "render/block.h"
 #include "render/environment.h"
 #include "render/sampler.h"
 #include "tenon/math/color.h"
@@ -15,6 +16,13 @@ struct IncidentLight {
   Vec3 to_light;     ///< from the point; its length is the distance where the light has a place
   double t_max = 0;  ///< along to_light: where the light stands
   Rgb light;         ///< Ij; black where the light does not reach
+};
+
+/// The same for many points.
+struct IncidentLightBlock {
+  Vec3Block to_light;
+  NumberBlock t_max;
+  RgbBlock light;
 };
 
 /// A direction that a light sends light from.
@@ -43,9 +51,12 @@ class LitLight {
   /// The light as if it stood in one point: what the course's illumination model sums over. Nothing of a light that is
   /// around the scene.
   IncidentLight at(const Vec3& point) const {
-    if (kind_ == LightKind::point && !(fade_distance_ > 0)) return {position_ - point, 1, emitted_};
+    if (is_plain_point()) return {position_ - point, 1, emitted_};
     return other_at(point);
   }
+  /// @param count     of points
+  /// @param incident  receives it
+  void at(const Vec3Block& points, std::size_t count, IncidentLightBlock& incident) const;
 
   /// About what a white surface at the point would show of it, shadows aside: never 0 where the light reaches, but for
   /// a uniform world, of which no direction is worth drawing.
@@ -68,6 +79,7 @@ class LitLight {
   const Environment* environment() const { return environment_; }
 
  private:
+  bool is_plain_point() const { return kind_ == LightKind::point && !(fade_distance_ > 0); }
   IncidentLight other_at(const Vec3& point) const;
   double importance_at(const Vec3& point) const;
   double spot_share(const Vec3& to_light) const;

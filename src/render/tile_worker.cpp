@@ -103,17 +103,19 @@ void TileWorker::aim_from_eye() {
 
 void TileWorker::add(std::size_t i, Film& film) {
   const RayQuery& query = queries_[i];
-  // What it says of the layers is cleared where there are any alone.
-  FilmSample& sample = sample_;
-  if (features_ != nullptr || wants_spans_) sample = FilmSample{};
-  sample.index = ids_[i].index;
-  sample.alpha = 1;
-  sample.is_in_second_half = is_in_second_half(sample.index, samples_);
-  sample.light = hatch_ != nullptr ? hatch_->light(hits_[i], places_[i]) * light_[i] : light_[i];
+  Rgb& light = light_[i];
+  double alpha = 1;
+  if (hatch_ != nullptr) light = hatch_->light(hits_[i], places_[i]) * light;
   if (transparent_ && !hits_[i].found()) {
-    sample.light = {};
-    sample.alpha = 0;
+    light = {};
+    alpha = 0;
   }
+  if (film.layers().empty()) return film.add(query.pixel_x, query.pixel_y, light, alpha);
+  FilmSample sample;
+  sample.index = ids_[i].index;
+  sample.light = light;
+  sample.alpha = alpha;
+  sample.is_in_second_half = is_in_second_half(sample.index, samples_);
   if (features_ != nullptr) features_->describe(hits_[i], sample);
   if (wants_spans_) look_through(query, sample);
   film.add(query.pixel_x, query.pixel_y, sample);

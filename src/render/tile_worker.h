@@ -52,7 +52,6 @@ class TileWorker {
   std::vector<Hit> hits_;
   std::vector<Rgb> light_;
   std::vector<SolidSpan> spans_;
-  FilmSample sample_;
 };
 
 }  // namespace tenon

@@ -30,12 +30,14 @@ void WhittedIntegrator::radiance(std::span<const RayQuery> primary, std::span<co
   pending_.resize(std::max(pending_.size(), primary.size()));
   nodes_.clear();
   for (std::size_t i = 0; i < primary.size(); ++i)
-    nodes_.push_back({static_cast<std::uint32_t>(i), 1, {1, 1, 1}, {}, {}, {}});
+    nodes_.push_back({static_cast<std::uint32_t>(i), 1, {1, 1, 1}, nullptr, {}, {}, {}});
   std::span<const RayQuery> rays = primary;
   for (;;) {
     shade(rays, hits, light);
-    connect(rays, hits, context);
-    for (const std::uint32_t i : surfaces_) light[nodes_[i].tree] += nodes_[i].weight * nodes_[i].local;
+    connect(hits, context);
+    for (const Node& node : nodes_) {
+      if (node.surface != nullptr) light[node.tree] += node.weight * node.local;
+    }
     if (!next_wave()) return;
     hits_.resize(queries_.size());
     accelerator_.first_hits(queries_, hits_, context);
@@ -46,7 +48,7 @@ void WhittedIntegrator::radiance(std::span<const RayQuery> primary, std::span<co
 
 // What needs no shadow rays, and the rays that come next.
 void WhittedIntegrator::shade(std::span<const RayQuery> rays, std::span<const Hit> hits, std::span<Rgb> light) {
-  surfaces_.clear();
+  surface_count_ = 0;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Ray& ray = rays[i].ray;
     const Hit& hit = hits[i];
@@ -57,12 +59,13 @@ void WhittedIntegrator::shade(std::span<const RayQuery> rays, std::span<const Hi
     if (lamp) {
       light[node.tree] += node.weight * lamp->second.radiance;
     } else if (hit.found()) {
-      surfaces_.push_back(static_cast<std::uint32_t>(i));
       node.normal = dot(hit.normal, ray.direction) > 0 ? -hit.normal : hit.normal;
       const Reflectance& surface = scene_.reflectance(hit.material);
+      node.surface = &surface;
       const Rgb color = scene_.color(hit);
       node.local = scene_.emitted(hit) + surface.ambient * color * scene_.ambient(node.normal);
       node.diffuse = surface.diffuse * color;
+      add_surface(static_cast<std::uint32_t>(i), ray, hit);
       branch(ray, hit, node);
     } else {
       light[node.tree] += node.weight * scene_.beyond(ray.direction, node.level == 1, true);
@@ -70,71 +73,80 @@ void WhittedIntegrator::shade(std::span<const RayQuery> rays, std::span<const Hi
   }
 }
 
+void WhittedIntegrator::add_surface(std::uint32_t node, const Ray& ray, const Hit& hit) {
+  const std::size_t number = surface_count_ / block_size, i = surface_count_ % block_size;
+  if (number == surfaces_.size()) surfaces_.emplace_back();
+  SurfaceBlock& block = surfaces_[number];
+  block.nodes[i] = node;
+  block.point.set(i, hit.point);
+  block.normal.set(i, nodes_[node].normal);
+  block.direction.set(i, ray.direction);
+  ++surface_count_;
+}
+
 // The light that comes straight from lights.
-void WhittedIntegrator::connect(std::span<const RayQuery> rays, std::span<const Hit> hits, TraceContext& context) {
-  shadow_queries_.clear();
-  shadow_rays_.clear();
+void WhittedIntegrator::connect(std::span<const Hit> hits, TraceContext& context) {
+  const std::size_t most = scene_.lights().size() * surface_count_;
+  if (shadow_queries_.size() < most) {
+    RayQuery query;
+    query.kind = RayKind::shadow;
+    shadow_queries_.resize(most, query);
+    shadow_rays_.resize(most);
+  }
+  shadow_count_ = 0;
   for (const LitLight& light : scene_.lights()) {
-    for (const std::uint32_t i : surfaces_) {
-      const IncidentLight incident = light.at(hits[i].point);
-      if (incident.light == Rgb{}) continue;
-      if (!(dot(nodes_[i].normal, incident.to_light) > 0)) continue;
-      if (scene_.is_blocked_by_light({hits[i].point, incident.to_light}, incident.t_max, &light)) continue;
-      // Part by part, where they stay: a copy of what was just put together waits for all of its parts.
-      RayQuery& query = shadow_queries_.emplace_back();
-      query.ray.origin = hits[i].point;
-      query.ray.direction = incident.to_light;
-      query.t_max = incident.t_max;
-      query.kind = RayKind::shadow;
-      query.from = &hits[i];
-      ShadowRay& ray = shadow_rays_.emplace_back();
-      ray.node = i;
-      ray.incident = incident.light;
+    for (std::size_t first = 0; first < surface_count_; first += block_size) {
+      aim_at_light(light, surfaces_[first / block_size], std::min(block_size, surface_count_ - first), hits);
     }
   }
   find_shares(hits, context);
-  for (std::uint32_t k = 0; k < shadow_rays_.size(); ++k) {
-    if (shares_[k] == Rgb{}) continue;
-    const std::uint32_t node = shadow_rays_[k].node;
-    lit_.rays[lit_.count] = k;
-    lit_.normal.set(lit_.count, nodes_[node].normal);
-    lit_.to_light.set(lit_.count, shadow_queries_[k].ray.direction);
-    lit_.direction.set(lit_.count, rays[node].ray.direction);
-    if (++lit_.count == block_size) add_lit(hits);
-  }
-  add_lit(hits);
-}
-
-// What a block of shadow rays brings.
-void WhittedIntegrator::add_lit(std::span<const Hit> hits) {
-  find_light_angles(lit_.normal, lit_.to_light, lit_.direction, lit_.count, lit_.angles);
-  for (std::size_t i = 0; i < lit_.count; ++i) {
-    const std::uint32_t k = lit_.rays[i];
+  for (std::size_t k = 0; k < shadow_count_; ++k) {
+    if (occluded_[k] != 0) continue;
     const ShadowRay& ray = shadow_rays_[k];
     Node& node = nodes_[ray.node];
-    const Reflectance& surface = scene_.reflectance(hits[ray.node].material);
-    Rgb factor = lit_.angles.incidence[i] * node.diffuse;
-    if (surface.specular > 0) {
-      const double highlight = surface.specular * power(std::max(0.0, lit_.angles.highlight[i]), surface.shininess);
+    Rgb factor = ray.incidence * node.diffuse;
+    if (node.surface->specular > 0) {
+      const double highlight = node.surface->specular * power(std::max(0.0, ray.highlight), node.surface->shininess);
       factor += Rgb{highlight, highlight, highlight};
     }
-    node.local += shares_[k] * (ray.incident * factor);
+    const Rgb light = ray.incident * factor;
+    node.local += scene_.has_transmission() ? shares_[k] * light : light;
   }
-  lit_.count = 0;
 }
 
-// How much of its light each shadow ray brings.
-void WhittedIntegrator::find_shares(std::span<const Hit> hits, TraceContext& context) {
-  shares_.resize(shadow_queries_.size());
-  if (scene_.has_transmission()) {
-    for (std::size_t k = 0; k < shares_.size(); ++k) {
-      shares_[k] = transmittance(shadow_queries_[k], hits[shadow_rays_[k].node], context);
-    }
-    return;
+// The shadow rays of a block's surfaces that face a light.
+void WhittedIntegrator::aim_at_light(const LitLight& light, const SurfaceBlock& block, std::size_t count,
+                                     std::span<const Hit> hits) {
+  light.at(block.point, count, incident_);
+  find_light_angles(block.normal, incident_.to_light, block.direction, count, angles_);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(angles_.incidence[i] > 0)) continue;
+    // Part by part, where they stay: a copy of what was just put together waits for all of its parts.
+    RayQuery& query = shadow_queries_[shadow_count_];
+    query.ray.origin = block.point[i];
+    query.ray.direction = incident_.to_light[i];
+    query.t_max = incident_.t_max[i];
+    query.from = &hits[block.nodes[i]];
+    ShadowRay& ray = shadow_rays_[shadow_count_];
+    ray.node = block.nodes[i];
+    ray.incidence = angles_.incidence[i];
+    ray.highlight = angles_.highlight[i];
+    ray.incident = incident_.light[i];
+    if (ray.incident == Rgb{} || scene_.is_blocked_by_light(query.ray, query.t_max, &light)) continue;
+    ++shadow_count_;
   }
-  occluded_.resize(shadow_queries_.size());
-  accelerator_.occluded(shadow_queries_, occluded_, context);
-  for (std::size_t k = 0; k < shares_.size(); ++k) shares_[k] = occluded_[k] != 0 ? Rgb{} : Rgb{1, 1, 1};
+}
+
+// Which shadow rays bring light, and how much of it where something lets light through.
+void WhittedIntegrator::find_shares(std::span<const Hit> hits, TraceContext& context) {
+  const std::span<const RayQuery> queries(shadow_queries_.data(), shadow_count_);
+  occluded_.resize(queries.size());
+  if (!scene_.has_transmission()) return accelerator_.occluded(queries, occluded_, context);
+  shares_.resize(queries.size());
+  for (std::size_t k = 0; k < queries.size(); ++k) {
+    shares_[k] = transmittance(queries[k], hits[shadow_rays_[k].node], context);
+    occluded_[k] = shares_[k] == Rgb{};
+  }
 }
 
 // The share of the light that a boundary lets through to what lies straight behind it.
@@ -162,7 +174,7 @@ Rgb WhittedIntegrator::transmittance(const RayQuery& query, const Hit& hit, Trac
 
 void WhittedIntegrator::branch(const Ray& ray, const Hit& hit, const Node& node) {
   if (node.level >= limits_.depth) return;
-  const Reflectance& surface = scene_.reflectance(hit.material);
+  const Reflectance& surface = *node.surface;
   if (!surface.sends_on()) return;
   // An opaque solid behind the surface takes what the surface lets through.
   const bool lets_through = surface.transmitted > 0 && hit.after != medium_opaque;
@@ -201,7 +213,7 @@ bool WhittedIntegrator::next_wave() {
     query.ray = next.ray;
     query.kind = next.kind;
     from_.push_back(std::move(next.from));
-    nodes_[count++] = {node.tree, next.level, next.weight, {}, {}, {}};
+    nodes_[count++] = {node.tree, next.level, next.weight, nullptr, {}, {}, {}};
     pending.pop_back();
   }
   nodes_.resize(count);

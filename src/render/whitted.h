@@ -53,25 +53,26 @@ class WhittedIntegrator final : public Integrator {
     std::uint32_t tree;
     int level;
     Rgb weight;
-    Vec3 normal;  // against the ray
-    Rgb diffuse;  // kd C
-    Rgb local;    // what surface and lights send back along it
+    const Reflectance* surface = nullptr;  // where it lies on one
+    Vec3 normal;                           // against the ray
+    Rgb diffuse;                           // kd C
+    Rgb local;                             // what surface and lights send back along it
+  };
+  // Nodes that lie on a surface.
+  struct SurfaceBlock {
+    std::array<std::uint32_t, block_size> nodes;
+    Vec3Block point, normal, direction;
   };
   struct ShadowRay {
     std::uint32_t node = 0;
+    double incidence = 0, highlight = 0;  // as LightAngles
     Rgb incident;
-  };
-  // Shadow rays that bring light.
-  struct LitBlock {
-    std::size_t count = 0;
-    std::array<std::uint32_t, block_size> rays;  // into shadow_rays_
-    Vec3Block normal, to_light, direction;
-    LightAngles angles;
   };
 
   void shade(std::span<const RayQuery> rays, std::span<const Hit> hits, std::span<Rgb> light);
-  void connect(std::span<const RayQuery> rays, std::span<const Hit> hits, TraceContext& context);
-  void add_lit(std::span<const Hit> hits);
+  void add_surface(std::uint32_t node, const Ray& ray, const Hit& hit);
+  void connect(std::span<const Hit> hits, TraceContext& context);
+  void aim_at_light(const LitLight& light, const SurfaceBlock& block, std::size_t count, std::span<const Hit> hits);
   void find_shares(std::span<const Hit> hits, TraceContext& context);
   Rgb transmittance(const RayQuery& query, const Hit& hit, TraceContext& context);
   double transmitted(const Hit& boundary, const Vec3& direction) const;
@@ -87,11 +88,15 @@ class WhittedIntegrator final : public Integrator {
   std::vector<Node> nodes_;                    // of the wave
   std::vector<RayQuery> queries_;
   std::vector<Hit> from_, hits_;
-  std::vector<std::uint32_t> surfaces_;  // the nodes that lie on one
+  std::size_t surface_count_ = 0;       // of the wave's nodes that lie on a surface
+  std::vector<SurfaceBlock> surfaces_;  // of those, and as many more as there once were
+  IncidentLightBlock incident_;         // from a block of surfaces to a light
+  LightAngles angles_;
+  // The first shadow_count_ of these are rays; the others are there to be overwritten.
+  std::size_t shadow_count_ = 0;
   std::vector<RayQuery> shadow_queries_;
   std::vector<ShadowRay> shadow_rays_;
   std::vector<Rgb> shares_;
-  LitBlock lit_;
   std::vector<std::uint8_t> occluded_;
   PassedBoundaries passed_;
 };

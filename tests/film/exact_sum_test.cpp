@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -49,6 +50,38 @@ TEST(ExactSum, CountsEveryDoubleInWholeSteps) {
     WideSum sum;
     sum.add(value);
     EXPECT_EQ(sum.units(), static_cast<Int128>(steps)) << value;
+  }
+}
+
+template <class Sum>
+void expect_float_counts_as_double(float value) {
+  Sum of_float, of_double;
+  of_float.add(value);
+  of_double.add(static_cast<double>(value));
+  EXPECT_EQ(of_float, of_double) << value;
+}
+
+void expect_float_counts_as_double(float value) {
+  expect_float_counts_as_double<WideSum>(value);
+  expect_float_counts_as_double<SquareSum>(value);
+  expect_float_counts_as_double<ShareSum>(value);
+}
+
+TEST(ExactSum, CountsAFloatAsTheDoubleThatItIs) {
+  const std::uint64_t seed = 73;
+  SCOPED_TRACE(seed);
+  Random random(seed);
+  for (int i = 0; i < 100000; ++i) {
+    expect_float_counts_as_double(std::bit_cast<float>(static_cast<std::uint32_t>(random.bits())));
+    expect_float_counts_as_double(static_cast<float>(random.sign() * random.magnitude(-22, 20)));
+  }
+  // Each power of two, the limits among them, and its neighbours.
+  for (std::uint32_t exponent = 0; exponent < 256; ++exponent) {
+    for (const std::uint32_t fraction : {0U, 1U, 0x7fffffU}) {
+      const float value = std::bit_cast<float>(exponent << 23U | fraction);
+      expect_float_counts_as_double(value);
+      expect_float_counts_as_double(-value);
+    }
   }
 }
 

@@ -161,5 +161,37 @@ TEST(Sky, ShowsItsIntensityOnWhiteGroundAndIsBrightestAtTheSun) {
   EXPECT_GT(sky.radiance({0, 0, 1}).b, sky.radiance({0, 0, 1}).r) << "the zenith is blue";
 }
 
+TEST(LitLight, SendsToManyPointsWhatItSendsToEach) {
+  Light l;
+  l.position = {1, 2, 5};
+  l.direction = {0, 0, -1};
+  l.angle = 40;
+  l.softness = 0.5;
+  l.radius = 0.5;
+  l.edge_u = {3, 0, 0};
+  l.edge_v = {0, 2, 0};
+  l.color = {0.2, 0.5, 0.7};
+  for (const LightKind kind :
+       {LightKind::point, LightKind::directional, LightKind::spot, LightKind::sphere, LightKind::rectangle}) {
+    for (const double fade_distance : {0.0, 3.0}) {
+      l.kind = kind;
+      l.fade_distance = fade_distance;
+      const LitLight light(l);
+      Vec3Block points;
+      constexpr std::size_t count = block_size - 3;
+      // From under the light to far beside it, and some above.
+      for (std::size_t i = 0; i < count; ++i) points.set(i, {0.2 * static_cast<double>(i), 1, i % 7 == 0 ? 6.0 : 0.0});
+      IncidentLightBlock block;
+      light.at(points, count, block);
+      for (std::size_t i = 0; i < count; ++i) {
+        const IncidentLight one = light.at(points[i]);
+        EXPECT_EQ(block.to_light[i], one.to_light);
+        EXPECT_EQ(block.t_max[i], one.t_max);
+        EXPECT_EQ(block.light[i], one.light);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tenon

@@ -32,8 +32,20 @@ class ExactSum {
     // What compares false with everything is to end as 0.
     const double bounded = size < limit() ? size : size >= limit() ? limit() : 0;
     const Integer number = whole(bounded * power_of_two(fraction_bits));
-    const Integer sign = -static_cast<Integer>(value < 0);
-    units_ += (number ^ sign) - sign;
+    add_steps(number, value < 0);
+  }
+
+  /// The same for a number of single precision: its digits only have to be put in their place, but where they reach
+  /// beyond the last one or the limit.
+  void add(float value) {
+    constexpr int digits = 23, bias = 127;  // of a float: its fraction's digits, its exponent's zero
+    constexpr int first_whole = bias + digits - fraction_bits;  // the least exponent of whole steps alone
+    constexpr int first_beyond = bias + std::bit_width(static_cast<std::uint64_t>(limit())) - 1;
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const int exponent = static_cast<int>(bits >> digits & 0xffU);
+    if (exponent < first_whole || exponent >= first_beyond) return add(static_cast<double>(value));
+    const std::uint32_t significand = (bits & ((1U << digits) - 1)) | 1U << digits;
+    add_steps(static_cast<Integer>(significand) << (exponent - first_whole), std::signbit(value));
   }
   ExactSum& operator+=(const ExactSum& other) { return units_ += other.units_, *this; }
 
@@ -44,6 +56,12 @@ class ExactSum {
   friend bool operator==(const ExactSum&, const ExactSum&) = default;
 
  private:
+  // Without branches, for nobody knows which way they would go.
+  void add_steps(Integer number, bool is_negative) {
+    const Integer sign = -static_cast<Integer>(is_negative);
+    units_ += (number ^ sign) - sign;
+  }
+
   static constexpr double power_of_two(int exponent) {
     double power = 1;
     for (int i = 0; i < exponent; ++i) power *= 2;
@@ -51,8 +69,7 @@ class ExactSum {
     return power;
   }
 
-  // The nearest whole number, ties to even, of one that is not negative; without branches, for nobody knows which way
-  // they would go.
+  // The nearest whole number, ties to even, of one that is not negative; without branches, too.
   static Integer whole(double units) {
     if constexpr (sizeof(Integer) == 8) {
       return static_cast<Integer>(whole_below_2_52(units));

@@ -65,6 +65,11 @@ class Film {
 
   /// Asks the memory for what is kept of some pixels, so that it is there by the time that samples of them are added.
   void fetch(const PixelWindow& pixels) const;
+  /// A sample of a film without layers.
+  /// @param light  weighted with alpha
+  /// @param alpha  0: the pixel lets what is behind the picture through
+  void add(int x, int y, const Rgb& light, double alpha);
+  /// A sample of any film.
   void add(int x, int y, const FilmSample& sample);
   /// Adds the samples of another film of the same picture, with the same layers, where the windows overlap.
   void add(const Film& part);
