@@ -75,6 +75,7 @@ class Top {
 
 // What a part of the top came to.
 struct BuiltPart {
+  std::size_t leaves = 0;
   Subdivision subdivision;
   Subdivision::Built root;
   HugePageVector<WideNode> nodes;  // where it was collapsed by itself
@@ -194,26 +195,33 @@ BuiltCells build_cells(const SubdivisionInput& input, const Box3& box, const Vec
 
   Assembly assembly(input, center);
   std::vector<std::uint32_t> roots(nodes.size(), SubdivisionNode::none);
+  // A batch is appended, in its order, while the next one is built.
   constexpr std::size_t batch = 64;
-  std::size_t leaves_done = 0;
+  std::vector<BuiltPart> parts, built;
+  std::size_t leaves_done = 0, appended = 0;
+  const auto append_built = [&] {
+    for (BuiltPart& part : built) {
+      leaves_done += part.leaves;
+      const double done = static_cast<double>(leaves_done) / static_cast<double>(leaves);
+      roots[tasks[appended++]] = assembly.append(part, done);
+      part = {};
+    }
+    built.clear();
+  };
   for (std::size_t begin = 0; begin < tasks.size(); begin += batch) {
-    const std::size_t count = std::min(batch, tasks.size() - begin);
-    std::vector<BuiltPart> parts(count);
-    std::vector<std::size_t> sizes(count);
-    parallel_for(count, threads, [&](std::size_t i, int worker) {
+    parts.resize(std::min(batch, tasks.size() - begin));
+    parallel_for(parts.size() + 1, threads, [&](std::size_t task, int worker) {
+      if (task == 0) return append_built();
+      const std::size_t i = task - 1;
       const SpacePart part = std::exchange(nodes[tasks[begin + i]].part, {});
-      sizes[i] = part.leaves.size();
-      const auto most_here = static_cast<std::size_t>(cells_per_leaf * static_cast<double>(sizes[i]));
+      parts[i].leaves = part.leaves.size();
+      const auto most_here = static_cast<std::size_t>(cells_per_leaf * static_cast<double>(part.leaves.size()));
       parts[i].subdivision = workers[worker].subdivide(part, most_here, parts[i].root);
       assembly.collapse_if_large(parts[i]);
     });
-    for (std::size_t i = 0; i < count; ++i) {
-      leaves_done += sizes[i];
-      const double done = static_cast<double>(leaves_done) / static_cast<double>(leaves);
-      roots[tasks[begin + i]] = assembly.append(parts[i], done);
-      parts[i] = {};
-    }
+    std::swap(parts, built);
   }
+  append_built();
   return assembly.finish(nodes, std::move(roots));
 }
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "accel/cells/cell_build.h"
 #include "accel/cells/leaf_regions.h"
 #include "accel/cells/spatial_order.h"
+#include "tenon/base/parallel_for.h"
 
 namespace tenon::cells {
 
@@ -26,11 +28,17 @@ CellTree CellTree::build(const CsgTree& tree, const Box3& box, const CellScale& 
     result.frame.center[a] = result.center[axis];
   }
   const std::vector<LeafId> order = spatial_order(tree, result.scale.reach);
-  result.records = LeafRecords::of(tree, result.scale, result.center, order);
-  result.shapes = PlacedShapes::of(tree, result.scale, order);
-  const LeafRegions regions(tree, &result.records);
+  std::optional<LeafRegions> regions;
+  parallel_for(2, settings.threads, [&](std::size_t task, int) {
+    if (task == 0) {
+      result.records = LeafRecords::of(tree, result.scale, result.center, order);
+      regions.emplace(tree, &result.records);
+    } else {
+      result.shapes = PlacedShapes::of(tree, result.scale, order);
+    }
+  });
   BuiltCells built = build_cells(
-      {tree, result.scale, result.records, regions, result.ranks, result.center, settings.quality, settings.limits},
+      {tree, result.scale, result.records, *regions, result.ranks, result.center, settings.quality, settings.limits},
       grown(box, 4 * result.scale.growth), result.center, settings.threads);
   static_cast<CellStore&>(result) = std::move(built.store);
   result.nodes = std::move(built.nodes);

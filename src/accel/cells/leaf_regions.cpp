@@ -5,6 +5,7 @@
 #include "accel/cells/cell_cost.h"
 #include "accel/cells/leaf_pieces.h"
 #include "csg/enclosures.h"
+#include "math/axes.h"
 #include "math/quarter_turns.h"
 #include "primitive/dispatch.h"
 #include "primitive/lists.h"
@@ -275,29 +276,35 @@ Box3 LeafRegions::face_within(const RegionLeaf& leaf, const Box3& box, int axis)
 }
 
 // On a ball's surface, or a cylinder's side, the square along one axis is that of the radius less those along the
-// others.
+// others. Each axis gains by what those before it have left of the box.
 Box3 LeafRegions::round_surface_within(const RegionLeaf& leaf, const Box3& box) const {
   if (leaf.round_axes == 0) return Box3::empty();
   Box3 surface = box;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!leaf.is_round_along(axis)) continue;
-    double nearest = 0, farthest = 0;
-    for (int other = 0; other < 3; ++other) {
-      if (other == axis || !leaf.is_round_along(other)) continue;
-      nearest += nearest_square(leaf.center[other], surface.lower[other], surface.upper[other]);
-      farthest += farthest_square(leaf.center[other], surface.lower[other], surface.upper[other]);
-    }
-    if (nearest > leaf.outer_square) return Box3::empty();
-    const double most = std::sqrt(leaf.outer_square - nearest) + margin_;
-    const double least = std::sqrt(std::max(leaf.inner_square - farthest, 0.0)) - margin_;
+  // Squares of distances from the centre along each axis; 0 along one that is not round.
+  Vec3 nearest, farthest;
+  const auto measure = [&](auto axis) {
+    if (!leaf.is_round_along(axis)) return;
+    nearest[axis] = nearest_square(leaf.center[axis], surface.lower[axis], surface.upper[axis]);
+    farthest[axis] = farthest_square(leaf.center[axis], surface.lower[axis], surface.upper[axis]);
+  };
+  const auto shorten = [&](auto axis) {
+    if (!leaf.is_round_along(axis)) return true;
+    constexpr int one = (axis + 1) % 3, other = (axis + 2) % 3;
+    const double least_square = leaf.inner_square - (farthest[one] + farthest[other]);
+    const double most_square = leaf.outer_square - (nearest[one] + nearest[other]);
+    if (most_square < 0) return false;
+    const double most = std::sqrt(most_square) + margin_;
+    const double least = (least_square > 0 ? std::sqrt(least_square) : 0) - margin_;
     const double low = surface.lower[axis] - leaf.center[axis], high = surface.upper[axis] - leaf.center[axis];
     // Both halves of the surface, or the one that the box reaches.
     const double from = low < -least ? -most : least, to = high > least ? most : -least;
     surface.lower[axis] = std::max(surface.lower[axis], leaf.center[axis] + from);
     surface.upper[axis] = std::min(surface.upper[axis], leaf.center[axis] + to);
-    if (surface.is_empty()) return Box3::empty();
-  }
-  return surface;
+    measure(axis);
+    return surface.lower[axis] <= surface.upper[axis];
+  };
+  for_each_axis(measure);
+  return holds_for_each_axis(shorten) ? surface : Box3::empty();
 }
 
 }  // namespace tenon::cells

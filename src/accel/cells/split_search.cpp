@@ -5,6 +5,7 @@
 
 #include "accel/cells/cell_cost.h"
 #include "accel/cells/split_limits.h"
+#include "math/axes.h"
 
 namespace tenon::cells {
 
@@ -62,8 +63,8 @@ void SplitSearch::list_planes(const Box3& box, std::uint32_t leaves) {
   const int beside = is_worth_more ? beside_ : 0;
   const Vec3 size = box.size();
   const double longest = max_component(size), off = 4 * growth_;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (size[axis] < longest / 8) continue;
+  for_each_axis([&](auto axis) {
+    if (size[axis] < longest / 8) return;
     const double low = box.lower[axis], high = box.upper[axis];
     for (int i = 0; i <= 2 * beside; ++i) planes_.push_back({axis, evenly_spaced(low, high, i, beside)});
     for_each_bit(leaves, [&](std::size_t i) {
@@ -72,7 +73,7 @@ void SplitSearch::list_planes(const Box3& box, std::uint32_t leaves) {
         if (p > low + off && p < high - off) planes_.push_back({axis, p});
       }
     });
-  }
+  });
 }
 
 FoldedTable SplitSearch::rest_in(const Box3& grown_side, const FoldedTable& rest, TableRegions regions) const {
