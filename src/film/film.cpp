@@ -86,8 +86,7 @@ void Film::fetch(const PixelWindow& pixels) const {
   });
 }
 
-void Film::add(int x, int y, const Rgb& light, double alpha) {
-  const std::size_t i = window_.index(x, y);
+void Film::add_light(std::size_t i, const Rgb& light, double alpha) {
   ++planes_.samples[i];
   const auto [r, g, b] = stored(light);
   add_three(planes_.light, i, r, g, b);
@@ -95,8 +94,8 @@ void Film::add(int x, int y, const Rgb& light, double alpha) {
 }
 
 void Film::add(int x, int y, const FilmSample& sample) {
-  add(x, y, sample.light, sample.alpha);
   const std::size_t i = window_.index(x, y);
+  add_light(i, sample.light, sample.alpha);
   const auto [r, g, b] = stored(sample.light);
   const auto square = [](float v) { return static_cast<double>(v) * static_cast<double>(v); };
   add_three(planes_.squares, i, square(r), square(g), square(b));

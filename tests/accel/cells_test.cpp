@@ -267,25 +267,35 @@ TEST(Cells, FollowDirectionsOfAnyLength) {
   }
 }
 
+void expect_the_same(const CellTree& one, const CellTree& other) {
+  ASSERT_EQ(one.cells.size(), other.cells.size());
+  ASSERT_EQ(one.nodes.size(), other.nodes.size());
+  for (std::size_t i = 0; i < one.cells.size(); ++i) {
+    ASSERT_EQ(one.cells[i].table, other.cells[i].table);
+    ASSERT_EQ(one.cells[i].leaves, other.cells[i].leaves);
+  }
+  for (std::size_t i = 0; i < one.nodes.size(); ++i) ASSERT_EQ(one.nodes[i].ends, other.nodes[i].ends);
+}
+
 // The tree is the same for any number of threads, and any set of instructions.
 TEST(Cells, AreBuiltAlikeByEverybody) {
   const CsgTree tree = gallery::random_scene(6, 300, 6);
   const Box3 box = battery::extent(tree);
   const CellTree one = CellTree::build(tree, box, cells::CellScale::of(tree), {{}, {}, 1});
   ASSERT_GT(one.cells.size(), 100u);
-  const auto expect_the_same = [&](const CellTree& other) {
-    ASSERT_EQ(one.cells.size(), other.cells.size());
-    ASSERT_EQ(one.nodes.size(), other.nodes.size());
-    for (std::size_t i = 0; i < one.cells.size(); ++i) {
-      ASSERT_EQ(one.cells[i].table, other.cells[i].table);
-      ASSERT_EQ(one.cells[i].leaves, other.cells[i].leaves);
-    }
-    for (std::size_t i = 0; i < one.nodes.size(); ++i) ASSERT_EQ(one.nodes[i].ends, other.nodes[i].ends);
-  };
-  expect_the_same(CellTree::build(tree, box, cells::CellScale::of(tree), {{}, {}, 4}));
+  expect_the_same(one, CellTree::build(tree, box, cells::CellScale::of(tree), {{}, {}, 4}));
   for_each_instruction_set([&] {
-    expect_the_same(CellTree::build(tree, box, cells::CellScale::of(tree), {{}, {}, 1}));
+    expect_the_same(one, CellTree::build(tree, box, cells::CellScale::of(tree), {{}, {}, 1}));
   });
+}
+
+// So many leaves that parts of the tree are appended while others are still built.
+TEST(Cells, OfManyLeavesAreBuiltAlikeByManyThreads) {
+  const CsgTree tree = gallery::random_scene(7, 5000, 30);
+  const Box3 box = battery::extent(tree);
+  const CellTree one = CellTree::build(tree, box, cells::CellScale::of(tree), {{}, {}, 1});
+  ASSERT_GT(one.cells.size(), 10000u);
+  expect_the_same(one, CellTree::build(tree, box, cells::CellScale::of(tree), {{}, {}, 5}));
 }
 
 // What is left of an expression says the same as the whole wherever the constant leaves are as assumed: whether a point

@@ -171,8 +171,8 @@ TEST(LitLight, SendsToManyPointsWhatItSendsToEach) {
   l.edge_u = {3, 0, 0};
   l.edge_v = {0, 2, 0};
   l.color = {0.2, 0.5, 0.7};
-  for (const LightKind kind :
-       {LightKind::point, LightKind::directional, LightKind::spot, LightKind::sphere, LightKind::rectangle}) {
+  for (const LightKind kind : {LightKind::point, LightKind::directional, LightKind::spot, LightKind::sphere,
+                               LightKind::rectangle, LightKind::sky}) {
     for (const double fade_distance : {0.0, 3.0}) {
       l.kind = kind;
       l.fade_distance = fade_distance;

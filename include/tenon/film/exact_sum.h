@@ -23,9 +23,7 @@ class ExactSum {
   explicit ExactSum(Integer units) : units_(units) {}
 
   /// The largest number that counts as it is.
-  static constexpr double limit() {
-    return power_of_two(static_cast<int>(8 * sizeof(Integer)) - 1 - std::bit_width(most_samples) - fraction_bits);
-  }
+  static constexpr double limit() { return power_of_two(limit_exponent); }
 
   void add(double value) {
     const double size = std::fabs(value);
@@ -35,12 +33,12 @@ class ExactSum {
     add_steps(number, value < 0);
   }
 
-  /// The same for a number of single precision: its digits only have to be put in their place, but where they reach
+  /// The same for a number of single precision: its digits only have to be put in their place, except where they reach
   /// beyond the last one or the limit.
   void add(float value) {
     constexpr int digits = 23, bias = 127;  // of a float: its fraction's digits, its exponent's zero
     constexpr int first_whole = bias + digits - fraction_bits;  // the least exponent of whole steps alone
-    constexpr int first_beyond = bias + std::bit_width(static_cast<std::uint64_t>(limit())) - 1;
+    constexpr int first_beyond = bias + limit_exponent;         // that of the limit
     const auto bits = std::bit_cast<std::uint32_t>(value);
     const int exponent = static_cast<int>(bits >> digits & 0xffU);
     if (exponent < first_whole || exponent >= first_beyond) return add(static_cast<double>(value));
@@ -56,6 +54,9 @@ class ExactSum {
   friend bool operator==(const ExactSum&, const ExactSum&) = default;
 
  private:
+  static constexpr int limit_exponent =
+      static_cast<int>(8 * sizeof(Integer)) - 1 - std::bit_width(most_samples) - fraction_bits;
+
   // Without branches, for nobody knows which way they would go.
   void add_steps(Integer number, bool is_negative) {
     const Integer sign = -static_cast<Integer>(is_negative);

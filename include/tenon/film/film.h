@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <limits>
 
@@ -68,7 +69,10 @@ class Film {
   /// A sample of a film without layers.
   /// @param light  weighted with alpha
   /// @param alpha  0: the pixel lets what is behind the picture through
-  void add(int x, int y, const Rgb& light, double alpha);
+  void add(int x, int y, const Rgb& light, double alpha) {
+    assert(layers_.empty());
+    add_light(window_.index(x, y), light, alpha);
+  }
   /// A sample of any film.
   void add(int x, int y, const FilmSample& sample);
   /// Adds the samples of another film of the same picture, with the same layers, where the windows overlap.
@@ -95,6 +99,8 @@ class Film {
   static double bytes(const PixelWindow& window, const Layers& layers);
 
  private:
+  void add_light(std::size_t i, const Rgb& light, double alpha);
+
   int width_ = 0, height_ = 0;
   PixelWindow window_;
   Layers layers_;

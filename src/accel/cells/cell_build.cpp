@@ -210,9 +210,10 @@ BuiltCells build_cells(const SubdivisionInput& input, const Box3& box, const Vec
   };
   for (std::size_t begin = 0; begin < tasks.size(); begin += batch) {
     parts.resize(std::min(batch, tasks.size() - begin));
-    parallel_for(parts.size() + 1, threads, [&](std::size_t task, int worker) {
-      if (task == 0) return append_built();
-      const std::size_t i = task - 1;
+    const std::size_t before = built.empty() ? 0 : 1;
+    parallel_for(before + parts.size(), threads, [&](std::size_t task, int worker) {
+      if (task < before) return append_built();
+      const std::size_t i = task - before;
       const SpacePart part = std::exchange(nodes[tasks[begin + i]].part, {});
       parts[i].leaves = part.leaves.size();
       const auto most_here = static_cast<std::size_t>(cells_per_leaf * static_cast<double>(part.leaves.size()));

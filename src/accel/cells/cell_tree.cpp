@@ -29,7 +29,9 @@ CellTree CellTree::build(const CsgTree& tree, const Box3& box, const CellScale& 
   }
   const std::vector<LeafId> order = spatial_order(tree, result.scale.reach);
   std::optional<LeafRegions> regions;
-  parallel_for(2, settings.threads, [&](std::size_t task, int) {
+  constexpr std::size_t worth_a_thread = 1024;  // leaves: one is ready in a microsecond, a thread in a hundred
+  const bool is_large = tree.leaves.size() >= worth_a_thread;
+  parallel_for(2, is_large ? settings.threads : 1, [&](std::size_t task, int) {
     if (task == 0) {
       result.records = LeafRecords::of(tree, result.scale, result.center, order);
       regions.emplace(tree, &result.records);

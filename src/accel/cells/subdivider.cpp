@@ -140,7 +140,11 @@ void Subdivider::choose_by_bounds(const SpacePart& part, SplitPlane& best) const
   const Vec3 bins_per_length{bin_count / size.x, bin_count / size.y, bin_count / size.z};
   constexpr std::size_t ahead = 8;  // leaves of a large scene come from memory, those of a part from all over it
   for (std::size_t i = 0; i < part.leaves.size(); ++i) {
-    if (i + ahead < part.leaves.size()) hwy::Prefetch(&input_.regions[part.leaves[i + ahead]]);
+    if (i + ahead < part.leaves.size()) {
+      const RegionLeaf& later = input_.regions[part.leaves[i + ahead]];
+      hwy::Prefetch(&later.bounds);
+      hwy::Prefetch(&later.price);
+    }
     const RegionLeaf& leaf = input_.regions[part.leaves[i]];
     for_each_axis([&](auto axis) {
       const auto bin_of = [&](double p) {
