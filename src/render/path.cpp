@@ -30,7 +30,8 @@ PathIntegrator::PathIntegrator(const LitScene& scene, const Accelerator& acceler
       sampler_(sampler),
       depth_(depth),
       strategy_(strategy),
-      shadow_rays_(scene.lights().size()) {}
+      shadow_rays_(scene.lights().size()),
+      straight_light_(scene, accelerator) {}
 
 void PathIntegrator::radiance(std::span<const RayQuery> primary, std::span<const Hit> hits,
                               std::span<const SampleId> samples, std::span<Rgb> light, TraceContext& context) {
@@ -250,10 +251,13 @@ void PathIntegrator::go_on(std::size_t i, const Hit& hit, int bounce) {
 void PathIntegrator::trace_shadow_rays(std::span<Rgb> light, TraceContext& context) {
   for (ShadowRays& to_light : shadow_rays_) {
     const auto& [queries, rays] = to_light;
-    if (scene_.has_unbent()) {
-      for (std::size_t i = 0; i < queries.size(); ++i) {
-        light[rays[i].slot] += rays[i].light * transmittance(queries[i], rays[i].medium, context);
-      }
+    if (scene_.has_unbent() && !queries.empty()) {
+      const auto start = [&to_light](std::size_t i) { return to_light.rays[i].medium; };
+      const auto let_through = [this](const Hit& boundary, const RayQuery&) {
+        return scene_.surface(boundary.material).unbent(scene_.color(boundary), scene_.boundary(boundary));
+      };
+      const std::span<const Rgb> shares = straight_light_.shares(queries, start, let_through, context);
+      for (std::size_t i = 0; i < queries.size(); ++i) light[rays[i].slot] += rays[i].light * shares[i];
     } else if (!queries.empty()) {
       occluded_.resize(queries.size());
       accelerator_.occluded(queries, occluded_, context);
@@ -266,18 +270,6 @@ void PathIntegrator::trace_shadow_rays(std::span<Rgb> light, TraceContext& conte
     to_light.queries.clear();
     to_light.rays.clear();
   }
-}
-
-Rgb PathIntegrator::transmittance(const RayQuery& query, MediumId medium, TraceContext& context) {
-  passed_.clear();
-  const auto stops = [this](const Hit& hit) {
-    const Rgb share = scene_.surface(hit.material).unbent(scene_.color(hit), scene_.boundary(hit));
-    if (share == Rgb{}) return true;
-    passed_.add(hit, share);
-    return false;
-  };
-  if (accelerator_.any_hit(query, stops, context)) return {};
-  return passed_.left(scene_, medium, length(query.ray.direction), query.t_max);
 }
 
 }  // namespace tenon

@@ -7,7 +7,7 @@
 #include "render/frame_block.h"
 #include "render/integrator.h"
 #include "render/lit_scene.h"
-#include "render/passed_boundaries.h"
+#include "render/straight_light.h"
 #include "render/vertex_groups.h"
 
 namespace tenon {
@@ -95,7 +95,6 @@ class PathIntegrator final : public Integrator {
   double weight(double density, double other) const;
   double weight_of_met_light(const Path& path, const LitLight& light, double density) const;
   void trace_shadow_rays(std::span<Rgb> light, TraceContext& context);
-  Rgb transmittance(const RayQuery& query, MediumId medium, TraceContext& context);
 
   const LitScene& scene_;
   const Accelerator& accelerator_;
@@ -114,7 +113,7 @@ class PathIntegrator final : public Integrator {
   Bsdf bsdf_;
   std::vector<ShadowRays> shadow_rays_;  // by light
   std::vector<std::uint8_t> occluded_;
-  PassedBoundaries passed_;
+  StraightLight straight_light_;
   CutPaths cut_;
   double noted_light_ = 0;  // of all rays of a call, after a bounce
 };

@@ -86,32 +86,44 @@ void WhittedIntegrator::add_surface(std::uint32_t node, const Ray& ray, const Hi
 
 // The light that comes straight from lights.
 void WhittedIntegrator::connect(std::span<const Hit> hits, TraceContext& context) {
-  const std::size_t most = scene_.lights().size() * surface_count_;
-  if (shadow_queries_.size() < most) {
-    RayQuery query;
-    query.kind = RayKind::shadow;
-    shadow_queries_.resize(most, query);
-    shadow_rays_.resize(most);
-  }
   shadow_count_ = 0;
   for (const LitLight& light : scene_.lights()) {
+    if (light.environment() != nullptr) continue;
     for (std::size_t first = 0; first < surface_count_; first += block_size) {
       aim_at_light(light, surfaces_[first / block_size], std::min(block_size, surface_count_ - first), hits);
     }
   }
-  find_shares(hits, context);
-  for (std::size_t k = 0; k < shadow_count_; ++k) {
-    if (occluded_[k] != 0) continue;
-    const ShadowRay& ray = shadow_rays_[k];
-    Node& node = nodes_[ray.node];
-    Rgb factor = ray.incidence * node.diffuse;
-    if (node.surface->specular > 0) {
-      const double highlight = node.surface->specular * power(std::max(0.0, ray.highlight), node.surface->shininess);
-      factor += Rgb{highlight, highlight, highlight};
+  const std::span<const RayQuery> queries(shadow_queries_.data(), shadow_count_);
+  if (scene_.has_transmission()) {
+    const auto start = [&](std::size_t k) { return hits[shadow_rays_[k].node].before; };
+    const auto let_through = [this](const Hit& boundary, const RayQuery& query) {
+      const Vec3& direction = query.ray.direction;
+      const double share = transmitted(boundary, 1 / length(direction) * direction);
+      return Rgb{share, share, share};
+    };
+    const std::span<const Rgb> shares = straight_light_.shares(queries, start, let_through, context);
+    for (std::size_t k = 0; k < queries.size(); ++k) {
+      if (shares[k] != Rgb{}) nodes_[shadow_rays_[k].node].local += shares[k] * sent_back(shadow_rays_[k]);
     }
-    const Rgb light = ray.incident * factor;
-    node.local += scene_.has_transmission() ? shares_[k] * light : light;
+  } else {
+    occluded_.resize(queries.size());
+    accelerator_.occluded(queries, occluded_, context);
+    for (std::size_t k = 0; k < queries.size(); ++k) {
+      if (occluded_[k] == 0) nodes_[shadow_rays_[k].node].local += sent_back(shadow_rays_[k]);
+    }
   }
+}
+
+// What a surface sends back of the light that a shadow ray brings.
+Rgb WhittedIntegrator::sent_back(const ShadowRay& ray) const {
+  const Node& node = nodes_[ray.node];
+  const Reflectance& surface = *node.surface;
+  Rgb factor = ray.incidence * node.diffuse;
+  if (surface.specular > 0) {
+    const double highlight = surface.specular * power(std::max(0.0, ray.highlight), surface.shininess);
+    factor += Rgb{highlight, highlight, highlight};
+  }
+  return ray.incident * factor;
 }
 
 // The shadow rays of a block's surfaces that face a light.
@@ -119,6 +131,12 @@ void WhittedIntegrator::aim_at_light(const LitLight& light, const SurfaceBlock& 
                                      std::span<const Hit> hits) {
   light.at(block.point, count, incident_);
   find_light_angles(block.normal, incident_.to_light, block.direction, count, angles_);
+  if (shadow_queries_.size() < shadow_count_ + count) {
+    RayQuery query;
+    query.kind = RayKind::shadow;  // which stays, whatever else is overwritten
+    shadow_queries_.resize(shadow_count_ + block_size, query);
+    shadow_rays_.resize(shadow_count_ + block_size);
+  }
   for (std::size_t i = 0; i < count; ++i) {
     if (!(angles_.incidence[i] > 0)) continue;
     // Part by part, where they stay: a copy of what was just put together waits for all of its parts.
@@ -137,39 +155,12 @@ void WhittedIntegrator::aim_at_light(const LitLight& light, const SurfaceBlock& 
   }
 }
 
-// Which shadow rays bring light, and how much of it where something lets light through.
-void WhittedIntegrator::find_shares(std::span<const Hit> hits, TraceContext& context) {
-  const std::span<const RayQuery> queries(shadow_queries_.data(), shadow_count_);
-  occluded_.resize(queries.size());
-  if (!scene_.has_transmission()) return accelerator_.occluded(queries, occluded_, context);
-  shares_.resize(queries.size());
-  for (std::size_t k = 0; k < queries.size(); ++k) {
-    shares_[k] = transmittance(queries[k], hits[shadow_rays_[k].node], context);
-    occluded_[k] = shares_[k] == Rgb{};
-  }
-}
-
 // The share of the light that a boundary lets through to what lies straight behind it.
 double WhittedIntegrator::transmitted(const Hit& boundary, const Vec3& direction) const {
   const Reflectance& surface = scene_.reflectance(boundary.material);
   if (!(surface.fresnel > 0)) return surface.transmitted;
   const double eta = scene_.ior(boundary.before) / scene_.ior(boundary.after);
   return surface.transmitted * (1 - fresnel_dielectric(std::fabs(dot(boundary.normal, direction)), eta));
-}
-
-// What reaches the hit: each boundary on the way lets kt through.
-Rgb WhittedIntegrator::transmittance(const RayQuery& query, const Hit& hit, TraceContext& context) {
-  passed_.clear();
-  const double distance = length(query.ray.direction);
-  const Vec3 to_light = 1 / distance * query.ray.direction;
-  const auto stops = [&](const Hit& boundary) {
-    const double share = transmitted(boundary, to_light);
-    if (!(share > 0)) return true;
-    passed_.add(boundary, {share, share, share});
-    return false;
-  };
-  if (accelerator_.any_hit(query, stops, context)) return {};
-  return passed_.left(scene_, hit.before, distance, query.t_max);
 }
 
 void WhittedIntegrator::branch(const Ray& ray, const Hit& hit, const Node& node) {

@@ -6,7 +6,7 @@
 #include "render/integrator.h"
 #include "render/light_angles.h"
 #include "render/lit_scene.h"
-#include "render/passed_boundaries.h"
+#include "render/straight_light.h"
 #include "tenon/accel/accelerator.h"
 #include "tenon/math/color.h"
 
@@ -28,13 +28,13 @@ struct RecursionLimits {
 /// Nothing in it is drawn at random.
 ///
 /// The trees of a call grow in waves. In each wave every tree that is not done has the one ray traced that would come
-/// next if it were followed alone; the structure is asked for the rays of a wave in one call, and in another for their
-/// shadow rays, as long as nothing in the scene lets light through. So the order in which a tree's light is added up
-/// does not depend on its neighbours, and no more rays wait than trees times levels.
+/// next if it were followed alone; the structure is asked for the rays of a wave in one call, and for their shadow rays
+/// in others. So the order in which a tree's light is added up does not depend on its neighbours, and no more rays wait
+/// than trees times levels.
 class WhittedIntegrator final : public Integrator {
  public:
   WhittedIntegrator(const LitScene& scene, const Accelerator& accelerator, const RecursionLimits& limits)
-      : scene_(scene), accelerator_(accelerator), limits_(limits) {}
+      : scene_(scene), accelerator_(accelerator), limits_(limits), straight_light_(scene, accelerator) {}
 
   void radiance(std::span<const RayQuery> primary, std::span<const Hit> hits, std::span<const SampleId> samples,
                 std::span<Rgb> light, TraceContext& context) override;
@@ -73,8 +73,7 @@ class WhittedIntegrator final : public Integrator {
   void add_surface(std::uint32_t node, const Ray& ray, const Hit& hit);
   void connect(std::span<const Hit> hits, TraceContext& context);
   void aim_at_light(const LitLight& light, const SurfaceBlock& block, std::size_t count, std::span<const Hit> hits);
-  void find_shares(std::span<const Hit> hits, TraceContext& context);
-  Rgb transmittance(const RayQuery& query, const Hit& hit, TraceContext& context);
+  Rgb sent_back(const ShadowRay& ray) const;
   double transmitted(const Hit& boundary, const Vec3& direction) const;
   void branch(const Ray& ray, const Hit& hit, const Node& node);
   void push(const Hit& from, const Vec3& direction, RayKind kind, const Rgb& weight, const Node& node);
@@ -96,9 +95,8 @@ class WhittedIntegrator final : public Integrator {
   std::size_t shadow_count_ = 0;
   std::vector<RayQuery> shadow_queries_;
   std::vector<ShadowRay> shadow_rays_;
-  std::vector<Rgb> shares_;
   std::vector<std::uint8_t> occluded_;
-  PassedBoundaries passed_;
+  StraightLight straight_light_;
 };
 
 }  // namespace tenon

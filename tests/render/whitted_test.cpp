@@ -196,6 +196,42 @@ TEST_F(Whitted, TransparentSolidsAttenuateByKtAtEachBoundary) {
   EXPECT_EQ(radiance({0.5, 0, 0.5}, {-1, 0, -1}), forward);
 }
 
+TEST_F(Whitted, LightPassesAnyNumberOfBoundaries) {
+  add(AnalyticSlab{-1, 0}, matt());
+  double left = 1;
+  for (int pane = 1; pane <= 12; ++pane) {
+    scene.lights = {point_light({0, 0, 40})};
+    add(AnalyticSlab{static_cast<double>(pane), pane + 0.5}, glass(0.9, 1.5));
+    left *= 0.9 * 0.9;
+    reversed = false;
+    const Rgb forward = radiance({0.5, 0, 0.5}, {-1, 0, -1});
+    EXPECT_NEAR(forward.r, left, tight) << pane;
+    // The last panes are seen by any order of the boundaries: the same bits.
+    reversed = true;
+    EXPECT_EQ(radiance({0.5, 0, 0.5}, {-1, 0, -1}), forward) << pane;
+    // What is opaque behind them leaves nothing.
+    scene.lights = {point_light({0, 0, pane + 0.75}), point_light({0, 0, 41})};
+    solids.push_back({AnalyticBall{{0, 0, 30}, 1}, MaterialId{0}, medium_opaque});
+    EXPECT_EQ(radiance({0.5, 0, 0.5}, {-1, 0, -1}), forward) << pane;
+    solids.pop_back();
+  }
+}
+
+TEST_F(Whitted, LightIsTakenOffAlongItsWayThroughEachMedium) {
+  add(AnalyticSlab{-1, 0}, matt());
+  add(AnalyticSlab{1, 3}, glass(0.9, 1.5));
+  add(AnalyticSlab{4, 9}, glass(0.8, 1.5));
+  scene.media[scene.media.size() - 2].attenuation = {0.3, 0, 0.1};
+  scene.media.back().attenuation = {0, 0.2, 0.5};
+  // It stands within the second one.
+  scene.lights = {point_light({0, 0, 6})};
+  const double shares = 0.9 * 0.9 * 0.8;
+  const Rgb lit = radiance({0.5, 0, 0.5}, {-1, 0, -1});
+  EXPECT_NEAR(lit.r, shares * std::exp(-0.3 * 2), tight);
+  EXPECT_NEAR(lit.g, shares * std::exp(-0.2 * 2), tight);
+  EXPECT_NEAR(lit.b, shares * std::exp(-0.1 * 2 - 0.5 * 2), tight);
+}
+
 TEST_F(Whitted, PhongIsOpaqueAndMirrorsNothing) {
   Material m = glass(0.7, 1.5);
   m.model = MaterialModel::phong;
@@ -294,6 +330,13 @@ TEST_F(Whitted, RaysOfACallDoNotKnowOfEachOther) {
   scene.ambient = {0.2, 0.1, 0.1};
   scene.lights = {point_light({2, -3, 5}), point_light({-4, 1, 6})};
   scene.lights[1].color = Rgba{1, 0.5, 0.25, 1};
+  // Some that do not reach every surface, or stand in each other's way.
+  scene.lights.push_back(point_light({0, -2, 5}));
+  scene.lights[2].kind = LightKind::spot;
+  scene.lights[2].angle = 15;
+  scene.lights.push_back(point_light({1, -2.5, 4}));
+  scene.lights[3].kind = LightKind::sphere;
+  scene.lights[3].radius = 0.7;
   const std::uint64_t seed = 31;
   SCOPED_TRACE(seed);
   Random random(seed);
