@@ -94,23 +94,26 @@ void WhittedIntegrator::connect(std::span<const Hit> hits, TraceContext& context
     }
   }
   const std::span<const RayQuery> queries(shadow_queries_.data(), shadow_count_);
-  if (scene_.has_transmission()) {
-    const auto start = [&](std::size_t k) { return hits[shadow_rays_[k].node].before; };
-    const auto let_through = [this](const Hit& boundary, const RayQuery& query) {
-      const Vec3& direction = query.ray.direction;
-      const double share = transmitted(boundary, 1 / length(direction) * direction);
-      return Rgb{share, share, share};
-    };
-    const std::span<const Rgb> shares = straight_light_.shares(queries, start, let_through, context);
-    for (std::size_t k = 0; k < queries.size(); ++k) {
-      if (shares[k] != Rgb{}) nodes_[shadow_rays_[k].node].local += shares[k] * sent_back(shadow_rays_[k]);
-    }
-  } else {
-    occluded_.resize(queries.size());
-    accelerator_.occluded(queries, occluded_, context);
-    for (std::size_t k = 0; k < queries.size(); ++k) {
-      if (occluded_[k] == 0) nodes_[shadow_rays_[k].node].local += sent_back(shadow_rays_[k]);
-    }
+  if (scene_.has_transmission()) return connect_through(queries, hits, context);
+  occluded_.resize(queries.size());
+  accelerator_.occluded(queries, occluded_, context);
+  for (std::size_t k = 0; k < queries.size(); ++k) {
+    if (occluded_[k] == 0) nodes_[shadow_rays_[k].node].local += sent_back(shadow_rays_[k]);
+  }
+}
+
+// The same by shadow rays that boundaries may let through.
+void WhittedIntegrator::connect_through(std::span<const RayQuery> queries, std::span<const Hit> hits,
+                                        TraceContext& context) {
+  const auto start = [&](std::size_t k) { return hits[shadow_rays_[k].node].before; };
+  const auto let_through = [this](const Hit& boundary, const RayQuery& query) {
+    const Vec3& direction = query.ray.direction;
+    const double share = transmitted(boundary, 1 / length(direction) * direction);
+    return Rgb{share, share, share};
+  };
+  const std::span<const Rgb> shares = straight_light_.shares(queries, start, let_through, context);
+  for (std::size_t k = 0; k < queries.size(); ++k) {
+    if (shares[k] != Rgb{}) nodes_[shadow_rays_[k].node].local += shares[k] * sent_back(shadow_rays_[k]);
   }
 }
 

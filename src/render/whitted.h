@@ -72,6 +72,7 @@ class WhittedIntegrator final : public Integrator {
   void shade(std::span<const RayQuery> rays, std::span<const Hit> hits, std::span<Rgb> light);
   void add_surface(std::uint32_t node, const Ray& ray, const Hit& hit);
   void connect(std::span<const Hit> hits, TraceContext& context);
+  void connect_through(std::span<const RayQuery> queries, std::span<const Hit> hits, TraceContext& context);
   void aim_at_light(const LitLight& light, const SurfaceBlock& block, std::size_t count, std::span<const Hit> hits);
   Rgb sent_back(const ShadowRay& ray) const;
   double transmitted(const Hit& boundary, const Vec3& direction) const;
