@@ -44,6 +44,9 @@ class SectionLight final : public Accelerator {
     });
   }
 
+  // Where a ray begins decides who answers it.
+  bool answers_piecewise() const override { return false; }
+
   void all_spans(const RayQuery& query, std::vector<SolidSpan>& spans, TraceContext& context) const override {
     in_stretches({&query, 1}, context, [&](const Accelerator& side, std::size_t, std::size_t, TraceContext& c) {
       side.all_spans(query, spans, c);

@@ -30,6 +30,7 @@ class StandIn final : public Accelerator {
   bool any_hit(const RayQuery& query, StopsRay stops, TraceContext& context) const override {
     return structure_->any_hit(query, stops, context);
   }
+  bool answers_piecewise() const override { return structure_->answers_piecewise(); }
   void all_spans(const RayQuery& query, std::vector<SolidSpan>& spans, TraceContext& context) const override {
     structure_->all_spans(query, spans, context);
   }

@@ -39,12 +39,16 @@ class Recorder final : public Accelerator {
   std::unique_ptr<TraceContext> make_context() const override { return oracle_.make_context(); }
   void first_hits(std::span<const RayQuery> queries, std::span<Hit> hits, TraceContext& context) const override {
     oracle_.first_hits(queries, hits, context);
-    for (std::size_t i = 0; i < queries.size(); ++i) rays_.add(queries[i], {hits[i]});
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const bool is_shadow = queries[i].kind == RayKind::shadow;
+      rays_.add(queries[i], is_shadow ? shadow_.trace(oracle_, queries[i], context) : StoredAnswer{hits[i]});
+    }
   }
   bool any_hit(const RayQuery& query, StopsRay stops, TraceContext& context) const override {
     rays_.add(query, shadow_.trace(oracle_, query, context));
     return oracle_.any_hit(query, stops, context);
   }
+  bool answers_piecewise() const override { return oracle_.answers_piecewise(); }
   void all_spans(const RayQuery& query, std::vector<SolidSpan>& spans, TraceContext& context) const override {
     oracle_.all_spans(query, spans, context);
   }

@@ -31,7 +31,7 @@ class StraightLight {
     std::iota(numbers_.begin(), numbers_.end(), 0);
     // Most rays meet nothing, or what is opaque. The others go on together from what they met, for structures trace
     // many rays faster than one. One that still has not ended is asked for all of its boundaries.
-    constexpr std::size_t most_waves = 16;
+    const std::size_t most_waves = accelerator_.answers_piecewise() ? 16 : 1;
     std::span<const RayQuery> rays = queries;
     for (std::size_t wave = 0; wave < most_waves && !rays.empty(); ++wave) {
       std::vector<Hit>& hits = hits_[wave % 2];

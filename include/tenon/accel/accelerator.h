@@ -96,6 +96,10 @@ class Accelerator {
   /// True as soon as `stops` returned true for a boundary at 0 < t < t_max.
   virtual bool any_hit(const RayQuery& query, StopsRay stops, TraceContext& context) const = 0;
 
+  /// Whether a shadow ray may be asked for piece by piece, one boundary and then what lies behind it, instead of all
+  /// boundaries by any_hit(): where not, a piece that starts at a boundary is answered otherwise than the whole ray.
+  virtual bool answers_piecewise() const { return true; }
+
   /// The parts of the ray (t >= 0) inside the solid, sorted. A ray that starts inside has t_in = 0 there.
   virtual void all_spans(const RayQuery& query, std::vector<SolidSpan>& spans, TraceContext& context) const = 0;
 
