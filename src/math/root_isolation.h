@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "math/polynomial.h"
+#include "tenon/math/rounding.h"
 
 /// Root isolation (course, "Root isolation methods"): an interval is cut in halves until each part has no root, or one
 /// that can be told from all others. Both methods here mind that the polynomial is known to within errors, so what they

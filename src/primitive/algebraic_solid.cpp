@@ -5,6 +5,7 @@
 
 #include "primitive/box_clip.h"
 #include "primitive/box_tests.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

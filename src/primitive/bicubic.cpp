@@ -10,6 +10,7 @@
 #include "primitive/mesh_edges.h"
 #include "primitive/patch_basis.h"
 #include "primitive/patch_roots.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

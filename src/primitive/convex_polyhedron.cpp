@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "primitive/check.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

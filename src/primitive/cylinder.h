@@ -11,6 +11,7 @@
 #include "primitive/check.h"
 #include "primitive/clip.h"
 #include "primitive/concept.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/expansion.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

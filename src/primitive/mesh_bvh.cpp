@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tenon/math/rounding.h"
+
 namespace tenon {
 
 namespace {

@@ -3,6 +3,7 @@
 
 #include "primitive/edge_sign.h"
 #include "primitive/mesh_crossings.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

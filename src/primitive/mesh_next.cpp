@@ -4,6 +4,7 @@
 
 #include "primitive/mesh.h"
 #include "primitive/mesh_crossings.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

@@ -9,6 +9,7 @@
 #include "primitive/check.h"
 #include "primitive/concept.h"
 #include "primitive/revolved_quadric.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

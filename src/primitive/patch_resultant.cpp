@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "tenon/math/rounding.h"
+
 namespace tenon {
 
 namespace {

@@ -8,6 +8,7 @@
 #include "primitive/check.h"
 #include "primitive/flatness.h"
 #include "primitive/half_space.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

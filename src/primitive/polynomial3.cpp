@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "tenon/math/rounding.h"
+
 namespace tenon {
 
 Polynomial3::Polynomial3(const PolynomialTerms& terms, double relative_error) {

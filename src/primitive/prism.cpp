@@ -7,6 +7,7 @@
 #include "primitive/check.h"
 #include "primitive/prism_line.h"
 #include "primitive/wedge.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

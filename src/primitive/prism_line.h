@@ -7,6 +7,7 @@
 
 #include "math/quadratic.h"
 #include "primitive/prism.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

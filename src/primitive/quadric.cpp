@@ -7,6 +7,7 @@
 #include "primitive/box_clip.h"
 #include "primitive/check.h"
 #include "primitive/polish_root.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

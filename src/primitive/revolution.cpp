@@ -6,6 +6,7 @@
 #include "primitive/box_tests.h"
 #include "primitive/check.h"
 #include "primitive/revolution_line.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

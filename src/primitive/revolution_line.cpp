@@ -1,6 +1,7 @@
 #include "primitive/revolution_line.h"
 
 #include "math/polynomial.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "primitive/revolution.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

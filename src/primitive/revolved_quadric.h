@@ -9,6 +9,7 @@
 #include "primitive/clip.h"
 #include "primitive/local_ray.h"
 #include "primitive/polish_root.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

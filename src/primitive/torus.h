@@ -11,6 +11,7 @@
 #include "primitive/check.h"
 #include "primitive/concept.h"
 #include "primitive/torus_quartic.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

@@ -7,6 +7,7 @@
 
 #include "math/polynomial.h"
 #include "primitive/local_ray.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "primitive/check.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

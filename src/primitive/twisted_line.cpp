@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "tenon/math/box3.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 

@@ -4,6 +4,7 @@
 
 #include "support/quad.h"
 #include "support/random.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon {
 namespace {

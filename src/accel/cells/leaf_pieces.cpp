@@ -7,6 +7,7 @@
 #include "accel/cells/cell_cost.h"
 #include "accel/cells/planes_recorder.h"
 #include "primitive/lists.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon::cells {
 

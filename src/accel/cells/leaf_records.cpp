@@ -8,6 +8,7 @@
 #include "accel/cells/planes_recorder.h"
 #include "primitive/dispatch.h"
 #include "primitive/lists.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon::cells {
 

@@ -9,6 +9,7 @@
 #include "accel/cells/planes_recorder.h"
 #include "accel/cells/walls_recorder.h"
 #include "primitive/wall_part.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon::cells {
 

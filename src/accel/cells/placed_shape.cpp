@@ -7,6 +7,7 @@
 
 #include "accel/cells/certainty.h"
 #include "primitive/lists.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon::cells {
 

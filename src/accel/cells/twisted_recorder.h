@@ -10,6 +10,7 @@
 #include "accel/cells/walls_recorder.h"
 #include "math/quarter_turns.h"
 #include "primitive/wall_part.h"
+#include "tenon/math/rounding.h"
 
 namespace tenon::cells {
 
