@@ -1,5 +1,7 @@
 #include "primitive/dispatch.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -125,6 +127,36 @@ NextCrossing next_crossing(const PrimitiveStore& store, PrimitiveId id, const Pl
       return next;
     } else {
       return {};
+    }
+  });
+}
+
+bool tells_packets(const PrimitiveStore& store, PrimitiveId id) {
+  return visit(store.lists(), id, [](const auto& primitive) {
+    if constexpr (requires { primitive.tells_packets(); }) {
+      return primitive.tells_packets();
+    } else {
+      return false;
+    }
+  });
+}
+
+void next_crossings(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const RayPacket& rays,
+                    double tolerance, PacketCrossings& found) {
+  found.clear();
+  visit(store.lists(), id, [&](const auto& primitive) {
+    if constexpr (requires { primitive.tells_packets(); }) {
+      if (!primitive.tells_packets()) return;
+      LocalRayPacket local;
+      placement.to_local(rays, tolerance, local);
+      primitive.next_crossings(local, found);
+      for (std::uint64_t left = rays.rays; left != 0; left &= left - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(left));
+        if (local.shift[i] == 0) continue;
+        for (NextCrossing* const next : {&found.first[i], &found.second[i]}) {
+          if (next->kind == NextCrossing::Kind::found) move(next->crossing, local.shift[i]);
+        }
+      }
     }
   });
 }

@@ -7,6 +7,7 @@
 #include "primitive/local_ray.h"
 #include "primitive/next_crossing.h"
 #include "primitive/placement.h"
+#include "primitive/ray_packet.h"
 #include "tenon/primitive/crossing.h"
 #include "tenon/primitive/primitive_store.h"
 
@@ -53,6 +54,14 @@ bool has_next_crossing(const PrimitiveStore& store, PrimitiveId id);
 /// @param search  of the ray that was mapped
 NextCrossing next_crossing(const PrimitiveStore& store, PrimitiveId id, const Placement::MappedRay& mapped,
                            const CrossingSearch& search);
+
+/// Whether next_crossings() may say something.
+bool tells_packets(const PrimitiveStore& store, PrimitiveId id);
+
+/// The same for rays of the world that go much the same way, together: the first crossings behind t = 0, where they
+/// begin.
+void next_crossings(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const RayPacket& rays,
+                    double tolerance, PacketCrossings& found);
 
 /// The largest n·p over the primitive's points p, in the local frame; +inf where it is unbounded.
 double support(const PrimitiveStore& store, PrimitiveId id, const Vec3& n);

@@ -77,8 +77,9 @@ void Mesh::prepare() {
   } else {
     index->structure.emplace<MeshBvh>(*mesh);
   }
-  for (const TriangleMesh::Corners& corners : mesh->triangles) {
-    for (const std::uint32_t v : corners) index->bounds = tenon::hull(index->bounds, mesh->vertices[v]);
+  for (std::uint32_t t = 0; t < mesh->triangles.size(); ++t) {
+    for (const Vec3& corner : mesh->corners(t)) index->bounds = tenon::hull(index->bounds, corner);
+    index->facet += 0.5 * length(flat_normal(t)) / static_cast<double>(mesh->triangles.size());
   }
   if (!hull) {
     const auto walk = [&index](const MeshLine& line, FunctionRef<void(std::uint32_t)> visit) {

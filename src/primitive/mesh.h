@@ -13,6 +13,7 @@
 #include "primitive/mesh_clear_cells.h"
 #include "primitive/mesh_kd_tree.h"
 #include "primitive/next_crossing.h"
+#include "primitive/ray_packet.h"
 
 namespace tenon {
 
@@ -45,6 +46,8 @@ class Mesh {
   /// where the line is inside there.
   void spans_within(const LocalRay& ray, const LineWindow& window, Spans& out) const;
   NextCrossing next_crossing(const LocalRay& ray, const CrossingSearch& search) const;
+  void next_crossings(const LocalRayPacket& rays, PacketCrossings& found) const;
+  bool tells_packets() const;
   std::optional<Crossing> crossing_near(const LocalRay& ray, double t, double near, bool entering) const;
   /// Where no place away from all triangles is known, a window is no help. By trial on OpenSCAD's examples.
   double window_share() const { return index_->clear.bytes() == 0 ? 1 : 0.4; }
@@ -61,6 +64,7 @@ class Mesh {
   struct Index {
     std::variant<MeshBvh, MeshKdTree> structure;
     Box3 bounds;
+    double facet = 0;  // the area of a triangle, on average
     ClearCells clear;
 
     void walk(const MeshLine& line, const LineWindow& window, FunctionRef<void(std::uint32_t)> visit) const;

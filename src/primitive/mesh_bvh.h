@@ -12,6 +12,8 @@
 
 namespace tenon {
 
+struct FloatLine;
+
 /// A bounding volume hierarchy over the triangles of a mesh, eight children a node, built top down by the surface area
 /// heuristic over sixteen bins (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007).
 ///
@@ -32,6 +34,9 @@ class MeshBvh {
   /// The same, those in nearer boxes mostly first, as far as is still of interest: visit(triangle) returns the t of the
   /// line where that ends from now on.
   void walk_forward(const MeshLine& line, const LineWindow& window, FunctionRef<double(std::uint32_t)> visit) const;
+
+  /// That, and which part of it is asked for, in the frame of the hierarchy.
+  void walk_forward(FloatLine& line, FunctionRef<double(std::uint32_t)> visit) const;
 
   /// Calls visit(triangle), which returns whether to go on, for each triangle whose leaf meets this box.
   /// @return false when a visit ended the walk

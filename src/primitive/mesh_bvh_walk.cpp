@@ -4,94 +4,12 @@
 #include <utility>
 
 #include "primitive/mesh_bvh.h"
+#include "primitive/mesh_float_line.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "primitive/mesh_bvh_walk.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-
-#ifndef TENON_PRIMITIVE_MESH_BVH_WALK_ONCE_
-#define TENON_PRIMITIVE_MESH_BVH_WALK_ONCE_
-namespace tenon {
-
-/// A line in the frame of a hierarchy, in single precision: at the height h along the axis that it mostly follows, it
-/// lies at start + shear * h along the two others. How far it has come is h where it rises, and -h where it falls.
-struct FloatLine {
-  std::size_t axes[3];  // the one that it mostly follows, and the others
-  float start[2], shear[2];
-  // By axis: it meets a plane, near or far side of a box, when it has come plane * inverse - shift. Boxes are grown by
-  // what the line is wrong by.
-  float inverse[3], near_shift[3], far_shift[3];
-  bool forward[3];
-  // How far a corner may be from where it is computed, across the line.
-  float error[2];
-  float begin, end;        // the part that is asked for
-  bool is_beside = false;  // it misses everything
-
-  FloatLine(const MeshLine& line, const LineWindow& window, const MeshBvh::Frame& frame)
-      : axes{static_cast<std::size_t>(line.along), static_cast<std::size_t>(line.across[0]),
-             static_cast<std::size_t>(line.across[1])} {
-    // u is what a float rounds by, and no coordinate here is larger than a few units. How far the line has come where
-    // it meets a plane is wrong by the error of coordinates, across the plane, times the inverse.
-    constexpr double u = 0x1p-24;
-    // A mesh lies within 1 of the middle: at heights up to 1.25 no line meets it that passes at 3, if it is known to a
-    // quarter.
-    constexpr double beside = 3, quarter = 0.25;
-    const Vec3 origin = frame.scale * (line.origin - frame.center), grown = 2 * frame.scale * line.growth;
-    up_ = grown[line.along] + 4 * u;
-    const auto limited = [](double value) { return value <= most ? value : unknown; };
-    const double sign = line.direction[line.along] > 0 ? 1 : -1;
-    come_at_0_ = sign * origin[line.along];
-    speed_ = frame.scale * std::fabs(line.direction[line.along]);
-    const double from = come_at_0_ + speed_ * window.begin;
-    begin = static_cast<float>(std::fabs(from) <= most ? from - up_ : -unknown);
-    end_at(window.end);
-    set_slab(0, sign, 0, limited(up_));
-    for (std::size_t i = 0; i < 2; ++i) {
-      const int axis = line.across[i];
-      // A slope that takes the line nowhere within the mesh may be any other such.
-      constexpr double least = 0x1p-40;
-      const double slope = std::fabs(line.shear[i]) < least ? least : line.shear[i];
-      const double at_middle = origin[axis] - line.shear[i] * origin[line.along];
-      // Of a corner its coordinates, the slope and their product round by u each, the start by 3 u, the differences by
-      // 4 u and 5 u. Where a plane is met the product rounds by 2 u, the shift by 3 u, and the sum by as much as the
-      // plane and the start are apart.
-      const double slack = 32 * u * (1 + up_);
-      // Twice what the line is wrong by covers the rounding in double here and there.
-      const double wrong = 2 * frame.scale * line.shear_error[i];
-      double growth = limited(grown[axis] + slack);
-      error[i] = static_cast<float>(limited(wrong + 20 * u));
-      const bool is_far = !(std::fabs(at_middle) <= beside);
-      is_beside |= is_far && grown[axis] <= quarter && up_ <= quarter;
-      start[i] = is_far ? 0 : static_cast<float>(at_middle);
-      if (is_far) growth = error[i] = static_cast<float>(unknown);
-      shear[i] = static_cast<float>(slope);
-      set_slab(i + 1, sign / slope, is_far ? 0 : at_middle, growth);
-    }
-  }
-
-  /// Asks for no more than what lies before t of the line.
-  void end_at(double t) {
-    const double far = come_at_0_ + speed_ * t;
-    end = static_cast<float>(far <= most ? std::max(far + up_, -unknown) : unknown);
-  }
-
- private:
-  static constexpr double unknown = 0x1p60, most = 0x1p20;
-
-  void set_slab(std::size_t i, double inverse_slope, double place, double growth) {
-    forward[i] = inverse_slope > 0;
-    const double grow = forward[i] ? growth : -growth;
-    inverse[i] = static_cast<float>(inverse_slope);
-    near_shift[i] = static_cast<float>((place + grow) * inverse_slope);
-    far_shift[i] = static_cast<float>((place - grow) * inverse_slope);
-  }
-
-  double come_at_0_, speed_, up_;
-};
-
-}  // namespace tenon
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace tenon {
@@ -148,7 +66,7 @@ class WideLine {
 };
 
 /// The triangles that the line may cross: of whose edges none certainly passes it on the other side than another. What
-/// edge_area() (mesh_candidate.cpp) says of errors holds here as well.
+/// FindArea() (mesh_candidate-inl.h) says of errors holds here as well.
 HWY_INLINE std::uint32_t MeetTriangles(const FloatLine& line, const MeshBvh::Block& block) {
   const Wide wide;
   using V = hn::Vec<Wide>;
@@ -249,6 +167,8 @@ void WalkForward(const MeshBvh& bvh, FloatLine& line, FunctionRef<double(std::ui
           stack[at] = other;
         }
         child.bits = nearest.child;
+        if (top > 0 && !MeshBvh::Child{stack[top - 1].child}.is_leaf())
+          __builtin_prefetch(&nodes[stack[top - 1].child]);
       }
     }
     while (met == 0) {
@@ -277,9 +197,13 @@ void MeshBvh::walk(const MeshLine& line, const LineWindow& window, FunctionRef<v
 
 void MeshBvh::walk_forward(const MeshLine& line, const LineWindow& window,
                            FunctionRef<double(std::uint32_t)> visit) const {
-  if (nodes_.empty()) return;
   FloatLine float_line(line, window, frame_);
-  if (!float_line.is_beside) HWY_DYNAMIC_DISPATCH(WalkForward)(*this, float_line, visit);
+  walk_forward(float_line, visit);
+}
+
+void MeshBvh::walk_forward(FloatLine& line, FunctionRef<double(std::uint32_t)> visit) const {
+  if (nodes_.empty() || line.is_beside) return;
+  HWY_DYNAMIC_DISPATCH(WalkForward)(*this, line, visit);
 }
 
 }  // namespace tenon

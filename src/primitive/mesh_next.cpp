@@ -4,6 +4,7 @@
 
 #include "primitive/mesh.h"
 #include "primitive/mesh_crossings.h"
+#include "primitive/mesh_packet.h"
 #include "tenon/math/rounding.h"
 
 namespace tenon {
@@ -128,6 +129,14 @@ NextCrossing Mesh::next_crossing(const LocalRay& ray, const CrossingSearch& sear
     if (found.tell(*mesh, next)) break;
   }
   return next;
+}
+
+bool Mesh::tells_packets() const {
+  return !hull && mesh->winds_once && std::holds_alternative<MeshBvh>(index_->structure);
+}
+
+void Mesh::next_crossings(const LocalRayPacket& rays, PacketCrossings& found) const {
+  find_next_crossings(*mesh, std::get<MeshBvh>(index_->structure), {index_->bounds, index_->facet}, rays, found);
 }
 
 std::optional<Crossing> Mesh::crossing_near(const LocalRay& ray, double t, double near, bool entering) const {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "primitive/ray_map-inl.h"
 #include "tenon/math/rounding.h"
 
+HWY_BEFORE_NAMESPACE();
 namespace tenon {
 
 namespace {
@@ -189,39 +191,27 @@ std::optional<Placement> Placement::create(const BoundedAffine3& world_from_loca
 
   Placement p;
   p.world_from_local_ = w;
-  for (int i = 0; i < 3; ++i) p.local_from_world_[static_cast<std::size_t>(i)] = m.row(i);
-  p.world_center_ = w.point(local_center);
+  p.map_.world_origin = w.translation();
+  for (int i = 0; i < 3; ++i) p.map_.rows[static_cast<std::size_t>(i)] = m.row(i);
+  p.map_.world_center = w.point(local_center);
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const Vec3 row = abs(m.row(i));
     Vec3 error;
     for (int j = 0; j < 3; ++j) error[j] = times_q(k, abs(m.column(j))) + 2 * times_q(k, qx);
     // M v takes three roundings in each sum, v = (o - w) + shift d another two; one more covers products of errors.
-    p.relative_error_[k] = (error + gamma(6) * row) * (1 + gamma(12));
-    p.constant_error_[i] = dot(row + error, e.translation()) * (1 + gamma(6));
-    p.row_length_[i] = length(m.row(i)) * (1 + gamma(6));
+    p.map_.relative_error[k] = (error + gamma(6) * row) * (1 + gamma(12));
+    p.map_.constant_error[i] = dot(row + error, e.translation()) * (1 + gamma(6));
+    p.map_.row_length[i] = length(m.row(i)) * (1 + gamma(6));
   }
-  if (!is_finite(p.constant_error_) || !is_finite(p.row_length_) || !is_finite(p.world_center_)) return std::nullopt;
+  if (!is_finite(p.map_.constant_error) || !is_finite(p.map_.row_length) || !is_finite(p.map_.world_center))
+    return std::nullopt;
   return p;
 }
 
 Placement::MappedRay Placement::to_local(const Ray& ray, double tolerance, int on_face) const {
-  MappedRay mapped;
-  if (on_face < 0) {
-    mapped.shift = dot(world_center_ - ray.origin, ray.direction) * (1 / dot(ray.direction, ray.direction));
-    if (!std::isfinite(mapped.shift)) mapped.shift = 0;
-  }
-  const Vec3 from_world_origin = ray.origin - world_origin();
-  const Vec3 v = from_world_origin + mapped.shift * ray.direction;
-
-  LocalRay& local = mapped.ray;
-  local.origin = to_local_direction(v);
-  local.direction = to_local_direction(ray.direction);
-  local.direction_error = times(relative_error_, abs(ray.direction));
-  local.origin_error = constant_error_ + tolerance * row_length_ + times(relative_error_, abs(from_world_origin)) +
-                       std::fabs(mapped.shift) * local.direction_error;
-  local.on_face = on_face;
-  return mapped;
+  const auto mapped = HWY_NAMESPACE::MapLine(map_, ray.origin, ray.direction, tolerance, on_face >= 0);
+  return {{mapped.origin, mapped.direction, mapped.origin_error, mapped.direction_error, on_face}, mapped.shift};
 }
 
 // At t of the given ray, s + t' with t' of the mapped one, the exact line lies within
@@ -235,19 +225,20 @@ Placement::MappedRay Placement::to_local(const LocalRay& ray) const {
 }
 
 Vec3 Placement::stretched(const Vec3& error) const {
-  Vec3 local = times(relative_error_, error);
-  for (int i = 0; i < 3; ++i) local[i] += dot(abs(local_from_world_[static_cast<std::size_t>(i)]), error);
+  Vec3 local = times(map_.relative_error, error);
+  for (int i = 0; i < 3; ++i) local[i] += dot(abs(map_.rows[static_cast<std::size_t>(i)]), error);
   return local * (1 + gamma(6));
 }
 
 Placement::RayErrors Placement::ray_errors(double farthest, double tolerance, const RayErrors& before) const {
   const Vec3 from{farthest, farthest, farthest};
   // |shift| |d| is at most the distance to the centre.
-  const double moved = length(from + abs(world_center_)) * (1 + gamma(8));
+  const double moved = length(from + abs(map_.world_center)) * (1 + gamma(8));
   RayErrors errors;
-  errors.direction = times(relative_error_, {1, 1, 1}) + stretched(before.direction);
-  errors.origin = constant_error_ + tolerance * row_length_ + times(relative_error_, from + abs(world_origin())) +
-                  stretched(before.origin) + moved * errors.direction;
+  errors.direction = times(map_.relative_error, {1, 1, 1}) + stretched(before.direction);
+  errors.origin = map_.constant_error + tolerance * map_.row_length +
+                  times(map_.relative_error, from + abs(world_origin())) + stretched(before.origin) +
+                  moved * errors.direction;
   return errors;
 }
 
@@ -260,17 +251,18 @@ LocalBox Placement::to_local(const Box3& box) const {
   Vec3 reach;
   for (int j = 0; j < 3; ++j) {
     Vec3& edge = local.half_edges[static_cast<std::size_t>(j)];
-    edge = Vec3{local_from_world_[0][j], local_from_world_[1][j], local_from_world_[2][j]} * half[j];
+    edge = Vec3{map_.rows[0][j], map_.rows[1][j], map_.rows[2][j]} * half[j];
     reach += abs(edge);
   }
   // center ± half deviates from the box's corner by a rounding of each end, two of the halves and one of the offset.
   const Vec3 slip = unit_roundoff * (2 * (abs(box.lower) + abs(box.upper)) + abs(center) + half);
-  const std::array<Vec3, 3> rows{abs(local_from_world_[0]), abs(local_from_world_[1]), abs(local_from_world_[2])};
+  const std::array<Vec3, 3> rows{abs(map_.rows[0]), abs(map_.rows[1]), abs(map_.rows[2])};
   // A corner computed from the local centre and half edges takes three more roundings.
-  local.error = constant_error_ + times(relative_error_, abs(center) + half) +
+  local.error = map_.constant_error + times(map_.relative_error, abs(center) + half) +
                 (times(rows, slip) + gamma(4) * (abs(local.center) + reach)) * (1 + gamma(6));
   local.bounds = {local.center - reach - local.error, local.center + reach + local.error};
   return local;
 }
 
 }  // namespace tenon
+HWY_AFTER_NAMESPACE();

@@ -4,6 +4,8 @@
 
 #include "primitive/local_box.h"
 #include "primitive/local_ray.h"
+#include "primitive/ray_map.h"
+#include "primitive/ray_packet.h"
 #include "tenon/math/affine3.h"
 #include "tenon/math/box3.h"
 #include "tenon/math/ray.h"
@@ -49,18 +51,17 @@ class Placement {
   Affine3 local_from_world_linear() const {
     Affine3 linear;
     for (std::size_t i = 0; i < 3; ++i) {
-      linear.m[i] = {local_from_world_[i].x, local_from_world_[i].y, local_from_world_[i].z, 0};
+      linear.m[i] = {map_.rows[i].x, map_.rows[i].y, map_.rows[i].z, 0};
     }
     return linear;
   }
-  Vec3 world_origin() const { return world_from_local_.translation(); }
+  const Vec3& world_origin() const { return map_.world_origin; }
   /// The point that rays are moved near to.
-  const Vec3& world_center() const { return world_center_; }
+  const Vec3& world_center() const { return map_.world_center; }
   Vec3 point_to_local(const Vec3& world) const { return to_local_direction(world - world_origin()); }
   /// A normal of the local frame, carried to the world at length 1. A mirrored frame keeps outward normals outward.
   Vec3 normal_to_world(const Vec3& local_normal) const {
-    const Vec3 n = local_from_world_[0] * local_normal.x + local_from_world_[1] * local_normal.y +
-                   local_from_world_[2] * local_normal.z;
+    const Vec3 n = map_.rows[0] * local_normal.x + map_.rows[1] * local_normal.y + map_.rows[2] * local_normal.z;
     // As faces of boxes that no map scales have it; to divide by 1 takes as long as by anything.
     return dot(n, n) == 1 ? n : normalize(n);
   }
@@ -79,6 +80,9 @@ class Placement {
   /// the primitive, its on_face says so.
   MappedRay to_local(const LocalRay& ray) const;
 
+  /// The same for rays of the world that are asked together.
+  void to_local(const RayPacket& rays, double tolerance, LocalRayPacket& local) const;
+
   /// Bounds on the errors of a ray: of its origin, and of its direction for one of length 1.
   struct RayErrors {
     Vec3 origin, direction;
@@ -92,23 +96,16 @@ class Placement {
   LocalBox to_local(const Box3& box) const;
 
  private:
-  // The linear map |A| v for an entrywise bound A >= 0.
-  using Bound3 = std::array<Vec3, 3>;
-  static Vec3 times(const Bound3& rows, const Vec3& v) { return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; }
+  static Vec3 times(const RayMap::Rows& rows, const Vec3& v) {
+    return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
+  }
 
   // Bound on the local image of an error.
   Vec3 stretched(const Vec3& error) const;
-  Vec3 to_local_direction(const Vec3& v) const {
-    return {dot(local_from_world_[0], v), dot(local_from_world_[1], v), dot(local_from_world_[2], v)};
-  }
+  Vec3 to_local_direction(const Vec3& v) const { return times(map_.rows, v); }
 
   Affine3 world_from_local_;
-  std::array<Vec3, 3> local_from_world_;  // rows of its linear part
-  Vec3 world_center_;
-  // The error of a mapped vector v, per local axis: constant_error_ + times(relative_error_, |v|).
-  Vec3 constant_error_;
-  Bound3 relative_error_;
-  Vec3 row_length_;  // Euclidean length of each row of local_from_world_
+  RayMap map_;
 };
 
 }  // namespace tenon

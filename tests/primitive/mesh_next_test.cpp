@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "primitive/mesh.h"
 #include "primitive/next_crossing_checks.h"
@@ -115,6 +118,121 @@ TEST(MeshNext, SeesWhatIsNearTheStart) {
     const double near = 2.5 * distance;
     EXPECT_EQ(solid.next_crossing(ray, {0, 0.5 * near, near}).kind, NextCrossing::Kind::unsure);
   }
+}
+
+// Rays that go much the same way: from one place, or towards one, or side by side; some of another length, some another
+// way, some that start on a face.
+std::vector<LocalRay> random_bundle(const Mesh& solid, Random& random) {
+  const LocalRay middle = random_ray(random);
+  const double spread = random.magnitude(-4, -0.5);
+  const bool fans_out = random.chance(0.6), moves = !fans_out || random.chance(0.3);
+  std::vector<LocalRay> rays;
+  const int count = 1 + random.below(static_cast<int>(most_packet_rays));
+  for (int i = 0; i < count; ++i) {
+    LocalRay ray = middle;
+    if (moves) ray.origin += spread * random.in_cube();
+    if (fans_out) ray.direction += spread * length(ray.direction) * random.in_cube();
+    if (random.chance(0.1)) ray.direction = random.magnitude(-1, 1) * ray.direction;
+    if (random.chance(0.02)) ray.direction = -ray.direction;
+    if (random.chance(0.2)) {
+      Spans whole;
+      solid.spans(ray, whole);
+      if (!whole.empty()) {
+        const Crossing& start = whole.front();
+        ray.origin += start.t * ray.direction;
+        const double error = start.bound * max_component(abs(ray.direction)) + 1e-15;
+        ray.origin_error = {error, error, error};
+        ray.on_face = static_cast<int>(start.face);
+      }
+    }
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
+// A bundle as a packet, some rays of which are not asked.
+struct RayRows {
+  RayRows(const std::vector<LocalRay>& rays, Random& random) {
+    packet.near = near.data();
+    bool has_faces = false;
+    for (std::size_t i = 0; i < most_packet_rays; ++i) {
+      const LocalRay& ray = rays[std::min(i, rays.size() - 1)];
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        packet.origin[a][i] = ray.origin[axis];
+        packet.direction[a][i] = ray.direction[axis];
+        packet.origin_error[a][i] = ray.origin_error[axis];
+        packet.direction_error[a][i] = ray.direction_error[axis];
+      }
+      const double length = tenon::length(ray.direction);
+      packet.shift[i] = ray.on_face < 0 && random.chance(0.3) ? random.uniform(-1, 1) / length : 0;
+      near[i] = random.magnitude(-12, -8) / length;
+      on_face[i] = ray.on_face;
+      has_faces |= ray.on_face >= 0;
+      if (i < rays.size() && !random.chance(0.1)) packet.rays |= std::uint64_t{1} << i;
+    }
+    if (has_faces) packet.on_face = on_face.data();
+  }
+
+  LocalRayPacket packet;
+  alignas(64) LocalRayPacket::Numbers near, on_face;
+};
+
+template <class Where>
+void expect_same(const NextCrossing& a, const NextCrossing& b, const Where& where) {
+  EXPECT_EQ(a.kind, b.kind) << where();
+  if (a.kind != NextCrossing::Kind::found || b.kind != NextCrossing::Kind::found) return;
+  EXPECT_EQ(a.crossing.t, b.crossing.t) << where();
+  EXPECT_EQ(a.crossing.bound, b.crossing.bound) << where();
+  EXPECT_EQ(a.crossing.face, b.crossing.face) << where();
+  EXPECT_EQ(a.crossing.entering, b.crossing.entering) << where();
+}
+
+// Asked together, rays meet what each meets by itself, to the last bit.
+TEST(MeshNext, TellsBundlesWhatItTellsEachRay) {
+  Random random(14);
+  int asked = 0, known = 0, found = 0, second_known = 0;
+  for (int n = 0; n < 40; ++n) {
+    TriangleMesh mesh = rough_ball(1 + n % 5, 1, random);
+    if (n % 4 == 1) mesh = meshes::together(std::move(mesh), turned_inside_out(rough_ball(2, 0.7, random)));
+    mesh.winds_once = n % 10 != 9;
+    if (n % 10 == 8) mesh.local = MeshStructure::kd;
+    const Mesh solid = prepared(std::move(mesh));
+    ASSERT_EQ(solid.tells_packets(), n % 10 < 8);
+    if (!solid.tells_packets()) continue;
+    for (int i = 0; i < 100; ++i) {
+      const std::vector<LocalRay> rays = random_bundle(solid, random);
+      RayRows rows(rays, random);
+      PacketCrossings together;
+      together.wants_second = random.chance(0.5);
+      solid.next_crossings(rows.packet, together);
+      const auto& next = together.first;
+      for (std::size_t k = 0; k < rays.size(); ++k) {
+        if ((rows.packet.rays >> k & 1) == 0) {
+          ASSERT_EQ(next[k].kind, NextCrossing::Kind::unsure);
+          continue;
+        }
+        const double begin = -rows.packet.shift[k];
+        const NextCrossing single = solid.next_crossing(rays[k], {begin, begin, rows.near[k]});
+        ++asked;
+        if (next[k].kind == NextCrossing::Kind::unsure) continue;
+        ++known;
+        const auto where = [&] { return describe(rays[k].origin, rays[k].direction); };
+        expect_same(next[k], single, where);
+        if (single.kind != NextCrossing::Kind::found) continue;
+        ++found;
+        const NextCrossing& second = together.second[k];
+        if (second.kind == NextCrossing::Kind::unsure) continue;
+        ++second_known;
+        const double from = single.crossing.t + 0.5 * rows.near[k];
+        expect_same(second, solid.next_crossing(rays[k], {begin, from, rows.near[k]}), where);
+        ASSERT_FALSE(HasFailure());
+      }
+    }
+  }
+  EXPECT_GT(known, asked / 2);
+  EXPECT_GT(found, asked / 4);
+  EXPECT_GT(second_known, asked / 8);
 }
 
 TEST(MeshNext, KnowsACrossingByItsNeighbourhood) {

@@ -23,12 +23,14 @@ namespace HWY_NAMESPACE {
 /// Gives what was found its last bits.
 class BatchAnswers {
  public:
-  BatchAnswers(const CellTree& tree, const RayBatch& batch, const BatchFindings& findings)
+  BatchAnswers(const CellTree& tree, const RayBatch& batch, const BatchFindings& findings,
+               const BatchCrossings& crossings)
       : cells_(tree),
         together_to_near_(tree.scale.together_to_near()),
         one_medium_(tree.ranks.is_one_medium()),
         rays_(batch),
-        found_(findings) {}
+        found_(findings),
+        crossings_(crossings) {}
 
   /// @param begin  the place of the batch's first ray among those of the sink
   template <class Sink>
@@ -336,15 +338,29 @@ class BatchAnswers {
 
   void Answer(std::size_t i, CellAnswer& answer, SingleTracer& single, TraversalStatistics& statistics) const {
     const RayQuery& query = rays_.queries[i];
-    if ((found_.unsure >> i & 1) != 0) return single.Trace(query, answer, statistics[query.kind]);
+    if ((found_.unsure >> i & 1) != 0) return single.TraceOfBatch(query, i, answer, statistics[query.kind]);
     answer.cell = found_.cell(i);
     answer.t = found_.t[i] + rays_.start[i];
     if (found_.coincident(i).word != 0) return single.FinishGroup(query, answer);
     answer.surface = {found_.leaf(i), 0};
     answer.leaf_entering = found_.enters(i);
     found_.TakeValues(i, answer);
+    if (TakeKnown(i, answer)) return;
     single.BeginKnown(query);
     single.Finish(answer);
+  }
+
+  // Gives a boundary its last bits, where the rays of the batch were asked for them together. @return whether they were
+  bool TakeKnown(std::size_t i, CellAnswer& answer) const {
+    const double near = rays_.near[i];
+    const NextCrossing* const next = crossings_.behind(answer.surface.leaf, i, answer.t - 2 * near);
+    if (next == nullptr || next->kind == NextCrossing::Kind::nothing) return false;
+    const Crossing& crossing = next->crossing;
+    if (!(std::fabs(crossing.t - answer.t) <= near) || crossing.entering != answer.leaf_entering) return false;
+    answer.t = crossing.t;
+    answer.surface.face = crossing.face;
+    answer.kind = crossing.t < rays_.queries[i].t_max ? CellAnswer::Kind::boundary : CellAnswer::Kind::nothing;
+    return true;
   }
 
   const CellTree& cells_;
@@ -352,6 +368,7 @@ class BatchAnswers {
   const bool one_medium_;
   const RayBatch& rays_;
   const BatchFindings& found_;
+  const BatchCrossings& crossings_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -23,11 +23,14 @@ namespace HWY_NAMESPACE {
 class BlockTracer {
  public:
   /// @param streams  of the same batch
-  BlockTracer(const CellTree& cells, RayBatch& rays, BatchFindings& found, StreamTracer& streams)
+  BlockTracer(const CellTree& cells, const CsgTree& tree, RayBatch& rays, BatchFindings& found,
+              BatchCrossings& crossings, StreamTracer& streams)
       : cells_(cells),
+        tree_(tree),
         together_to_near_(cells.scale.together_to_near()),
         rays_(rays),
         found_(found),
+        crossings_(crossings),
         streams_(streams) {}
 
   /// Whether the rays make a block: they are of one kind and go into one octant, and nowhere near along its planes, and
@@ -265,10 +268,53 @@ class BlockTracer {
     return true;
   }
 
+  // SingleTracer::MeetOtherwise for lanes at `at`. What a leaf is crossed by that tells its crossings one after another
+  // is found for all rays of the block.
+  HWY_NOINLINE bool MeetOtherwise(std::uint32_t index, std::size_t at, std::uint32_t lanes) {
+    const Cell& cell = cells_.cells[index];
+    if (!is_of_meshes(cell)) return Drop(at, lanes);
+    const bool is_alone = cell.leaf_count == 1;
+    for (std::uint32_t i = 0; i < cell.leaf_count; ++i) {
+      if (cell.records[i].kind() != RecordKind::mesh) continue;
+      // Where a ray is within one leaf while it comes to another, that behind the first tells.
+      tests_ +=
+          static_cast<std::uint64_t>(crossings_.find(tree_, cell.leaves[i], rays_.queries, rays_.packet(), !is_alone));
+    }
+    if (!is_alone) return Drop(at, lanes);
+    bool shorter = false;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      shorter |= MeetAlone(index, at + static_cast<std::size_t>(std::countr_zero(lanes)));
+    }
+    return shorter;
+  }
+
+  // SingleTracer::MeetAlone for a ray. @return whether it became shorter
+  bool MeetAlone(std::uint32_t index, std::size_t i) {
+    const Cell& cell = cells_.cells[index];
+    const LeafId leaf = cell.leaves[0];
+    const double start = rays_.start[i];
+    // At least from where the batch's crossings are known.
+    const double from = std::max(t_in_[i] + start, 0.0);
+    const NextCrossing* const next = crossings_.behind(leaf, i, from);
+    if (next == nullptr) {
+      found_.Drop(rays_, i);
+      return true;
+    }
+    const Crossing& crossing = next->crossing;
+    if (next->kind == NextCrossing::Kind::nothing || crossing.t > t_out_[i] + start) return false;
+    const std::uint64_t outside = cell.table & 1, inside = cell.table >> 1 & 1;
+    const bool enters = crossing.entering;
+    found_.Keep(
+        rays_, i,
+        {crossing.t - start, index, leaf.get(), enters ? outside : inside, enters ? inside : outside, 0, enters},
+        any_will_do_);
+    return true;
+  }
+
   // SingleTracer::Meet for the lanes at `at`; what it has to ask for is left to it.
   bool Meet(std::uint32_t index, std::size_t at, hn::Mask<D> lanes, hn::Vec<D> t_in, hn::Vec<D> t_out) {
     const Cell& cell = cells_.cells[index];
-    if (cell.general || cell.extended) return Drop(at, RayBatch::Bits(lanes));
+    if (cell.general || cell.extended) return MeetOtherwise(index, at, RayBatch::Bits(lanes));
     const D d;
     const U u;
     const SceneRays<D> ray = rays_.At(at);
@@ -341,9 +387,11 @@ class BlockTracer {
   }
 
   const CellTree& cells_;
+  const CsgTree& tree_;
   const double together_to_near_;
   RayBatch& rays_;
   BatchFindings& found_;
+  BatchCrossings& crossings_;
   StreamTracer& streams_;
   TraversalStatistics* statistics_ = nullptr;
   bool any_will_do_ = false;

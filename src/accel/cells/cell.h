@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "accel/cells/leaf_records.h"
 #include "accel/cells/value_table.h"
@@ -53,6 +55,13 @@ struct alignas(64) Cell {
   std::uint32_t owner_or_media = CellOwner{}.leaf.get();
 };
 static_assert(sizeof(Cell) == 64);
+
+/// Whether meshes are all that keeps a cell from being followed by its table.
+inline bool is_of_meshes(const Cell& cell) {
+  if (!cell.successive || cell.extended) return false;
+  const auto records = std::span(cell.records).first(cell.leaf_count);
+  return std::ranges::none_of(records, [](const RecordRef& ref) { return ref.kind() == RecordKind::instance; });
+}
 
 /// The expression of a cell with more than six leaves.
 struct ExtendedCell {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "accel/cells/batch_crossings.h"
 #include "accel/cells/cell_tree.h"
 #include "csg/classifier.h"
 #include "primitive/next_crossing.h"
@@ -133,6 +134,7 @@ struct CellScratch {
   std::vector<KnownSpans> mailbox = std::vector<KnownSpans>(known);
   /// And one for those that tell their crossings one after another.
   std::vector<KnownNext> next_crossings = std::vector<KnownNext>(known);
+  BatchCrossings batch_crossings;  ///< of the rays that are traced together
   std::uint64_t ray = 0;
   std::optional<CellClassifier> classifier;  ///< for as many leaves as any cell has
   std::vector<Run> runs;                     ///< of the tile; their owner may be CellOwner::varying()

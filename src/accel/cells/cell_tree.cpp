@@ -7,9 +7,24 @@
 #include "accel/cells/cell_build.h"
 #include "accel/cells/leaf_regions.h"
 #include "accel/cells/spatial_order.h"
+#include "primitive/dispatch.h"
 #include "tenon/base/parallel_for.h"
 
 namespace tenon::cells {
+
+namespace {
+
+// Whether rays that go the same way are met together by all that keeps a cell from being followed by its table.
+bool is_met_by_packets(const CsgTree& tree, const Cell& cell) {
+  if (!is_of_meshes(cell)) return false;
+  for (std::uint32_t i = 0; i < cell.leaf_count; ++i) {
+    if (cell.records[i].kind() != RecordKind::mesh) continue;
+    if (!tells_packets(tree.primitives, tree[cell.leaves[i]].primitive)) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 CellTree CellTree::build(const CsgTree& tree, const Box3& box, const CellScale& scale, const BuildSettings& settings) {
   CellTree result;
@@ -49,12 +64,14 @@ CellTree CellTree::build(const CsgTree& tree, const Box3& box, const CellScale& 
     result.pieces = {};
   }
   result.depth = built.depth;
-  std::size_t left = 0;
+  std::size_t tables = 0, meshes = 0;
   for (const Cell& cell : result.cells) {
     result.most_leaves = std::max(result.most_leaves, result.leaf_count(cell));
-    left += cell.general || cell.extended ? 1 : 0;
+    tables += cell.general || cell.extended ? 0 : 1;
+    meshes += is_met_by_packets(tree, cell) ? 1 : 0;
   }
-  result.has_few_tables = 2 * left > result.cells.size();
+  result.has_few_tables = 2 * tables < result.cells.size();
+  result.has_packets = 2 * (tables + meshes) >= result.cells.size() && meshes > 0;
   return result;
 }
 

@@ -38,6 +38,7 @@ struct CellTree : CellStore {
   int depth = 0;
   std::uint32_t most_leaves = 0;  ///< in one cell
   bool has_few_tables = false;    ///< most cells are left to SingleTracer, so rays are traced one by one from the start
+  bool has_packets = false;       ///< but for those that go the same way: they meet the meshes of most cells together
 
   /// Has what stands below a child come to the cache, for a ray that will be there soon.
   void prefetch(ChildRef child) const {

@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include <bit>
+#include <new>
 
 #include "accel/cells/cell_trace.h"
 #include "accel/cells/chord-inl.h"
@@ -180,12 +181,20 @@ class ExactCell {
 
   /// Begins a new ray.
   void Begin() { number_ = ++scratch_.ray; }
+  /// Says which of the batch's the rays are that are begun from now on, or that they are not of it.
+  void BeginOfBatch(std::size_t i) { batch_ray_ = i; }
+  static constexpr std::size_t no_batch = ~std::size_t{0};
 
   /// The ray in the frame of a leaf, as spans() has it.
   Placement::MappedRay Map(LeafId leaf, int on_face) const {
     const Placement& placement = tree_[leaf].placement;
     if (ray_.local == nullptr) return placement.to_local(ray_.query->ray, tree_.tolerance.distance, on_face);
     return placement.to_local(LocalFrom(on_face));
+  }
+
+  // The same in its place: to copy it would have to wait for what is written piece by piece.
+  void MapInto(Placement::MappedRay& mapped, LeafId leaf, int on_face) const {
+    ::new (&mapped) Placement::MappedRay(Map(leaf, on_face));
   }
 
   const AskedRay& ray() const { return ray_; }
@@ -316,17 +325,21 @@ class ExactCell {
 
   /// The first crossing behind a place of a leaf that tells them one after another.
   const NextCrossing& FindNext(LeafId leaf, double from) {
+    if (batch_ray_ != no_batch) {
+      if (const auto* const next = scratch_.batch_crossings.behind(leaf, batch_ray_, from)) return *next;
+    }
     auto& known = scratch_.next_crossings[leaf.get() % CellScratch::known];
     if (known.ray != number_ || known.leaf != leaf) {
       known.ray = number_;
       known.leaf = leaf;
-      known.mapped = Map(leaf, start_face(*ray_.query, leaf));
+      MapInto(known.mapped, leaf, start_face(*ray_.query, leaf));
     } else if (known.holds_from(from)) {
       return known.next;
     }
     ++tests_;
     known.from = from;
-    known.next = next_crossing(tree_.primitives, tree_[leaf].primitive, known.mapped, {ray_.begin, from, ray_.near});
+    ::new (&known.next) NextCrossing(
+        next_crossing(tree_.primitives, tree_[leaf].primitive, known.mapped, {ray_.begin, from, ray_.near}));
     return known.next;
   }
 
@@ -375,7 +388,7 @@ class ExactCell {
     if (known.ray != number_ || known.leaf != leaf) {
       known.ray = number_;
       known.leaf = leaf;
-      known.mapped = Map(leaf, on_face);
+      MapInto(known.mapped, leaf, on_face);
       known.has_windows = window_share(tree_.primitives, primitive) < 1;
     } else if (!known.has_windows || (known.window.begin <= window.begin && window.end <= known.window.end)) {
       return known.spans;
@@ -406,6 +419,7 @@ class ExactCell {
   const AskedRay& ray_;
   CellScratch& scratch_;
   std::uint64_t number_ = 0;  // of the ray in the scratch memory
+  std::size_t batch_ray_ = no_batch;
   std::uint64_t tests_ = 0;
 };
 

@@ -18,6 +18,7 @@
 
 #include "accel/cells/cell_trace.h"
 #include "accel/cells/scene_rays-inl.h"
+#include "primitive/ray_packet.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tenon::cells {
@@ -97,6 +98,14 @@ struct RayBatch {
       rays |= static_cast<std::uint64_t>(bits[0] | bits[1] << 8) << i;
     }
     return rays;
+  }
+  /// Those, as they are asked for what they cross of a leaf.
+  RayPacket packet() const {
+    return {in_scene(),
+            {query_origin[0], query_origin[1], query_origin[2]},
+            {direction[0], direction[1], direction[2]},
+            near,
+            nullptr};
   }
   /// Bit a: backward along axis a.
   std::uint32_t octant(std::size_t i) const {

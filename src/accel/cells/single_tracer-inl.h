@@ -45,6 +45,13 @@ class SingleTracer {
     }
   }
 
+  /// The same for one of the batch, of which some crossings may be known.
+  void TraceOfBatch(const RayQuery& query, std::size_t i, CellAnswer& answer, TraversalCounters& counters) {
+    exact_.BeginOfBatch(i);
+    Trace(query, answer, counters);
+    exact_.BeginOfBatch(ExactCell::no_batch);
+  }
+
   /// Follows a ray through a part of the frame of an instance. What is not certain of the part by itself is left to who
   /// asks.
   /// @param query        the ray in that frame; its t_max is infinite

@@ -10,6 +10,8 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -43,14 +45,14 @@ class SuccessiveCell {
       TruthTable here;
       if (!LearnValue(here)) return Outcome::unsure;
       const std::uint32_t crossed = FirstThatMatters(here);
-      if (crossed == none || !(leaves_[crossed].next <= t_out_ + tracer_.start_)) return Outcome::passed;
+      if (crossed == none || !(leaves_[crossed]->next <= t_out_ + tracer_.start_)) return Outcome::passed;
       // Crossings at one place may be one step.
-      at_ = leaves_[crossed].next;
+      at_ = leaves_[crossed]->next;
       crossed_ = crossed;
       for (std::uint32_t i = 0; i < cell_.leaf_count; ++i) {
-        if (i != crossed && !MoveOn(leaves_[i])) return Outcome::unsure;
+        if (i != crossed && !MoveOn(*leaves_[i])) return Outcome::unsure;
       }
-      Progress& leaf = leaves_[crossed];
+      Progress& leaf = *leaves_[crossed];
       TruthTable before, after;
       if (!LearnValue(before)) return Outcome::unsure;
       leaf.inside = !leaf.inside;
@@ -96,12 +98,12 @@ class SuccessiveCell {
   bool LearnValue(TruthTable& value) {
     value = whole_;
     for (std::uint32_t i = 0; i < cell_.leaf_count; ++i) {
-      if (leaves_[i].is_known) value = value.where(i, leaves_[i].inside);
+      if (leaves_[i]->is_known) value = value.where(i, leaves_[i]->inside);
     }
     for (std::uint32_t i = 0; i < cell_.leaf_count && !value.is_constant(); ++i) {
-      if (leaves_[i].is_known || !value.depends_on(i)) continue;
-      if (!Learn(leaves_[i])) return false;
-      value = value.where(i, leaves_[i].inside);
+      if (leaves_[i]->is_known || !value.depends_on(i)) continue;
+      if (!Learn(*leaves_[i])) return false;
+      value = value.where(i, leaves_[i]->inside);
     }
     return true;
   }
@@ -110,16 +112,16 @@ class SuccessiveCell {
   // that it does not depend on, the others being where they are.
   std::uint32_t FirstThatMatters(TruthTable value) const {
     std::uint32_t held = 0;
-    for (std::uint32_t i = 0; i < cell_.leaf_count; ++i) held |= (leaves_[i].is_known ? 1U : 0U) << i;
+    for (std::uint32_t i = 0; i < cell_.leaf_count; ++i) held |= (leaves_[i]->is_known ? 1U : 0U) << i;
     for (; held != 0;) {
       std::uint32_t first = none;
       for (std::uint32_t i = 0; i < cell_.leaf_count; ++i) {
-        if ((held >> i & 1) != 0 && (first == none || leaves_[i].next < leaves_[first].next)) first = i;
+        if ((held >> i & 1) != 0 && (first == none || leaves_[i]->next < leaves_[first]->next)) first = i;
       }
       held &= ~(1U << first);
       TruthTable rest = whole_;
       for (std::uint32_t i = 0; i < cell_.leaf_count; ++i) {
-        if ((held >> i & 1) != 0) rest = rest.where(i, leaves_[i].inside);
+        if ((held >> i & 1) != 0) rest = rest.where(i, leaves_[i]->inside);
       }
       if (rest != value) return first;
     }
@@ -137,7 +139,7 @@ class SuccessiveCell {
 
   // The leaf at a place, where the ray comes into the cell. @return whether that is certain
   bool Start(std::uint32_t place) {
-    Progress& leaf = leaves_[place];
+    Progress& leaf = leaves_[place].emplace();
     const RecordKind kind = cell_.records[place].kind();
     if (kind == RecordKind::instance) leaf.ray.template emplace<1>(tracer_.instance_ray(cell_, place));
     if (kind == RecordKind::mesh) leaf.ray.template emplace<2>(tracer_.mesh_ray(cell_, place));
@@ -223,9 +225,9 @@ class SuccessiveCell {
   const Cell& cell_;
   const double t_in_, t_out_;
   const TruthTable whole_;
-  double at_ = 0;                 // where the ray has come to
-  std::uint32_t crossed_ = none;  // what it crosses there
-  Progress leaves_[Cell::most_tabled];
+  double at_ = 0;                                                  // where the ray has come to
+  std::uint32_t crossed_ = none;                                   // what it crosses there
+  std::array<std::optional<Progress>, Cell::most_tabled> leaves_;  // as many as the cell has
 };
 
 }  // namespace HWY_NAMESPACE
