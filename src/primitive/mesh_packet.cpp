@@ -14,7 +14,7 @@
 #include <hwy/highway.h>
 
 #include "primitive/mesh_candidate-inl.h"
-#include "primitive/mesh_line-inl.h"
+#include "primitive/mesh_line_bundle-inl.h"
 #include "tenon/math/rounding.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -64,7 +64,6 @@ class PacketInMesh {
     return {LaneNumbers::load(rows[0].data() + at), LaneNumbers::load(rows[1].data() + at),
             LaneNumbers::load(rows[2].data() + at)};
   }
-  static HWY_INLINE double Largest(LaneNumbers x) { return hn::GetLane(hn::MaxOfLanes(LaneNumbers::D(), x.v)); }
 
   // Follows the rays from a place on, so many, together, or in halves.
   void Follow(std::size_t first, std::size_t count) {
@@ -164,54 +163,10 @@ class PacketInMesh {
     unsure_[at / lanes] = 0;
   }
 
-  // The least and the greatest of some figure of all rays.
-  struct Range {
-    LaneNumbers least, greatest;
-
-    HWY_INLINE Range() : least(infinity), greatest(-infinity) {}
-    HWY_INLINE void Include(LaneConditions where, LaneNumbers x) {
-      least = smaller(least, choose(where, x, LaneNumbers(infinity)));
-      greatest = larger(greatest, choose(where, x, LaneNumbers(-infinity)));
-    }
-    double low() const { return hn::GetLane(hn::MinOfLanes(LaneNumbers::D(), least.v)); }
-    double high() const { return Largest(greatest); }
-    double middle() const { return 0.5 * low() + 0.5 * high(); }
-  };
-
-  // Lines as one within whose errors they all lie.
-  struct Bundle {
-    Range starts[2], slopes[2], growths[2], errors[2];
-    double start[2], slope[2];
-
-    HWY_INLINE Bundle() {}
-    HWY_INLINE void Include(LaneConditions where, const FramedLine<LaneNumbers>& line) {
-      for (std::size_t i = 0; i < 2; ++i) {
-        starts[i].Include(where, line.start[i]);
-        slopes[i].Include(where, line.slope[i]);
-      }
-    }
-    HWY_INLINE void FindMiddle() {
-      for (std::size_t i = 0; i < 2; ++i) {
-        start[i] = starts[i].middle();
-        slope[i] = slopes[i].middle();
-      }
-    }
-    // Those of Include() again. @param up  of all
-    HWY_INLINE void IncludeErrors(LaneConditions where, const FramedLine<LaneNumbers>& line, double up) {
-      for (std::size_t i = 0; i < 2; ++i) {
-        // A mesh lies within 1 of the middle of its frame.
-        const LaneNumbers apart =
-            magnitude(line.start[i] - start[i]) + LaneNumbers(1 + up) * magnitude(line.slope[i] - slope[i]);
-        growths[i].Include(where, line.growth[i] + apart);
-        errors[i].Include(where, line.error[i] + apart);
-      }
-    }
-  };
-
   // Finds one line that stands for all rays, which it returns, and one for those of each vector.
   FloatLine BundleLines() {
-    Range ups, comes;
-    Bundle all_rays;
+    NumberRange ups, comes;
+    LineBundle all_rays;
     const auto for_each = [this](const auto& visit) HWY_ATTR {
       for (std::size_t at = 0; at < most_packet_rays; at += lanes) {
         if (const auto here = BitsAt(rays_in_, at); here != 0) {
@@ -226,34 +181,24 @@ class PacketInMesh {
       comes.Include(here, line.come_at_0 + line.speed * from - line.up);
     });
     all_rays.FindMiddle();
-    FramedLine<double> all;
-    all.up = ups.high();
-    // How far those have come is its t.
-    all.come_at_0 = 0;
-    all.speed = 1;
-    all.is_beside = false;
-    const double rounding = RoundingAtPlanes(all.up);
+    const double up = ups.high();
     for (std::size_t i = 0; i < 2; ++i) {
       for (Row* const row : {&vector_start_[i], &vector_slope_[i], &vector_error_[i]}) std::fill_n(*row, padded, 0.0);
     }
     for_each([&](std::size_t v, LaneConditions here, const FramedLine<LaneNumbers>& line) HWY_ATTR {
-      all_rays.IncludeErrors(here, line, all.up);
-      Bundle rays;
+      all_rays.IncludeErrors(here, line, up);
+      LineBundle rays;
       rays.Include(here, line);
       rays.FindMiddle();
-      rays.IncludeErrors(here, line, all.up);
+      rays.IncludeErrors(here, line, up);
+      const FramedLine<double> vector = rays.line(up);
       for (std::size_t i = 0; i < 2; ++i) {
-        vector_start_[i][v] = rays.start[i];
-        vector_slope_[i][v] = rays.slope[i];
-        vector_error_[i][v] = rays.errors[i].high() + rounding;
+        vector_start_[i][v] = vector.start[i];
+        vector_slope_[i][v] = vector.slope[i];
+        vector_error_[i][v] = vector.error[i];
       }
     });
-    for (std::size_t i = 0; i < 2; ++i) {
-      all.start[i] = all_rays.start[i];
-      all.slope[i] = all_rays.slope[i];
-      all.growth[i] = all_rays.growths[i].high() + rounding;
-      all.error[i] = all_rays.errors[i].high() + rounding;
-    }
+    const FramedLine<double> all = all_rays.line(up);
     width_ = std::max(all.growth[0], all.growth[1]);
     return {all, along_, rises_, {comes.low(), infinity}};
   }
@@ -339,7 +284,7 @@ class PacketInMesh {
       const LaneNumbers come = line.come_at_0 + line.speed * end + line.up;
       reach = larger(reach, choose(LaneConditions::from_bits(here), come, LaneNumbers(-infinity)));
     }
-    reach_ = Largest(reach);
+    reach_ = hn::GetLane(hn::MaxOfLanes(LaneNumbers::D(), reach.v));
   }
 
   // What is known of a ray. One of which it is not certain that it is there may come first, or be as near to another as
