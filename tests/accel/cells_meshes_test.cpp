@@ -51,6 +51,18 @@ TEST(Cells, FollowDenseMeshesFromCrossingToCrossing) {
   }
 }
 
+// Balls that stand before one another, and apart: a block of rays meets several of them, each by itself.
+CsgTree balls_in_a_row(Draw& draw) {
+  SceneBuilder b;
+  std::vector<SceneNodeId> balls;
+  for (int i = 0; i < 3; ++i) {
+    TriangleMesh rough = meshes::star(3, [&](const Vec3&) { return draw.real(0.85, 1); });
+    rough.winds_once = true;
+    balls.push_back(b.translate({1.9 * i, 0.4 * i, 0}, b.primitive("mesh", {meshes::share(std::move(rough)), false})));
+  }
+  return b.tree(b.unite(balls));
+}
+
 // A picture of a tree, and the shadow rays from what it shows to two lights, in blocks as they are rendered.
 std::vector<RayQuery> rays_of_a_picture(const CsgTree& tree, const Accelerator& none, Draw& draw,
                                         std::vector<Hit>& starts) {
@@ -58,13 +70,15 @@ std::vector<RayQuery> rays_of_a_picture(const CsgTree& tree, const Accelerator& 
   const Box3 box = battery::extent(tree);
   const double radius = length(box.size());
   const Vec3 eye = box.center() + draw.real(0.6, 3) * radius * draw.direction();
+  // Of a part of it, so that there are fewer triangles than rays, or of all.
+  const Vec3 middle = draw.in_box(box), size_there = draw.real(0.03, 1) * box.size();
   std::vector<RayQuery> queries;
   for (int i = 0; i < size * size; ++i) {
     const int in_block = i % (block * block), blocks = i / (block * block);
     const int x = blocks % (size / block) * block + in_block % block;
     const int y = blocks / (size / block) * block + in_block / block;
     RayQuery query;
-    const Vec3 at = box.lower + box.size() * Vec3{(x + 0.5) / size, (y + 0.5) / size, 0.5};
+    const Vec3 at = middle + size_there * Vec3{(x + 0.5) / size - 0.5, (y + 0.5) / size - 0.5, 0};
     query.ray = {eye, draw.real(0.5, 2) * (at - eye)};
     query.kind = RayKind::primary;
     queries.push_back(query);
@@ -93,9 +107,9 @@ TEST(Cells, BlocksMeetDenseMeshesAsSingleRaysDo) {
   for_each_instruction_set([&] {
     Draw draw(65);
     std::size_t found = 0;
-    for (int round = 0; round < 8; ++round) {
+    for (int round = 0; round < 12; ++round) {
       SCOPED_TRACE(round);
-      const CsgTree tree = dense_meshes(round, draw);
+      const CsgTree tree = round % 2 == 1 ? balls_in_a_row(draw) : dense_meshes(round, draw);
       const auto none = build_accelerator("none", tree), judged = build_accelerator("cells", tree);
       const auto context = (*none)->make_context(), other = (*judged)->make_context();
       std::vector<Hit> starts;
