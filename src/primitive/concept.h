@@ -45,10 +45,9 @@ Field(std::string_view, Unit, T P::*, std::string_view) -> Field<P, T>;
 ///   crossing_near(ray, t, near, entering)   if any: the crossing of spans() within `near` of t, if it is certainly the
 ///                          only one within twice that; nothing where that takes the whole of spans() to tell
 ///   next_crossing(ray, search)   if any: the first crossing of spans() behind a place (CrossingSearch)
-///   tells_packets(), next_crossings(rays, found)   with next_crossing(): whether it says something of rays together,
-///   and
-///                          the first ones behind where the rays of a packet begin; nothing is written of rays that are
-///                          sooner asked by themselves
+///   tells_packets(), next_crossings(rays, found)   with next_crossing(): whether there is something to say of rays
+///                          together, and the first ones behind where the rays of a packet begin; nothing is written
+///                          of rays that are sooner asked by themselves
 ///   planes_within(box, planes)   if any: how some planes, with normals of length 1, make up the part of the solid
 ///                          within the box (PlanarPart)
 ///   walls_within(box, most, part)   if any: the solid within the box as an outline that is swept, twisted or turned

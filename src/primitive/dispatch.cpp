@@ -1,7 +1,7 @@
 #include "primitive/dispatch.h"
 
-#include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -146,7 +146,7 @@ void next_crossings(const PrimitiveStore& store, PrimitiveId id, const Placement
   found.clear();
   visit(store.lists(), id, [&](const auto& primitive) {
     if constexpr (requires { primitive.tells_packets(); }) {
-      if (!primitive.tells_packets()) return;
+      assert(primitive.tells_packets());
       LocalRayPacket local;
       placement.to_local(rays, tolerance, local);
       primitive.next_crossings(local, found);

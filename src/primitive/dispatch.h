@@ -60,6 +60,7 @@ bool tells_packets(const PrimitiveStore& store, PrimitiveId id);
 
 /// The same for rays of the world that go much the same way, together: the first crossings behind t = 0, where they
 /// begin.
+/// @param id  one that tells_packets()
 void next_crossings(const PrimitiveStore& store, PrimitiveId id, const Placement& placement, const RayPacket& rays,
                     double tolerance, PacketCrossings& found);
 

@@ -17,10 +17,10 @@ struct MeshExtent {
 /// for all (Wald et al. 2007, "Ray tracing deformable scenes using dynamic bounding volume hierarchies": a packet
 /// stands for its rays), and each is held against as many rays at once as a vector has doubles.
 ///
-/// Of rays that go another way than most, that are not certain of what they meet, or that have too many triangles
+/// Of rays that go another way than the first, that are not certain of what they meet, or that have too many triangles
 /// between them, it says nothing.
-/// @param mesh    one that winds once
-/// @param bounds  of the mesh
+/// @param mesh   one that winds once
+/// @param found  of the rays that nothing is said of, as it was
 void find_next_crossings(const TriangleMesh& mesh, const MeshBvh& bvh, const MeshExtent& extent,
                          const LocalRayPacket& rays, PacketCrossings& found);
 

@@ -161,13 +161,7 @@ TEST(Cells, RunsOfRaysToSeveralLightsSayWhatSingleRaysSay) {
     const auto run = static_cast<std::size_t>(draw.real(0, 2) < 1 ? draw.real(1, 8) : draw.real(8, 150));
     const auto first = static_cast<std::size_t>(draw.real(0, static_cast<double>(starts.size())));
     for (std::size_t i = 0; i < run; ++i) {
-      const Hit& start = starts[(first + i) % starts.size()];
-      RayQuery query;
-      query.ray = {start.point, light - start.point};
-      query.t_max = 1;
-      query.kind = RayKind::shadow;
-      query.from = &start;
-      queries.push_back(query);
+      queries.push_back(shadow_ray(starts[(first + i) % starts.size()], light));
     }
   }
   std::size_t found = 0;

@@ -56,6 +56,16 @@ inline Answers ask_together(const Accelerator& accelerator, std::span<const RayQ
   return answers;
 }
 
+// From what a ray has met to a light without extent.
+inline RayQuery shadow_ray(const Hit& start, const Vec3& light) {
+  RayQuery query;
+  query.ray = {start.point, light - start.point};
+  query.t_max = 1;
+  query.kind = RayKind::shadow;
+  query.from = &start;
+  return query;
+}
+
 // Rays in all directions, which are followed several at once; from free space, from what they met, along
 // axes, to an end, and from further off than single precision can tell.
 inline void expect_streams_say_what_single_rays_say(const CsgTree& tree, int count) {

@@ -90,14 +90,7 @@ std::vector<RayQuery> rays_of_a_picture(const CsgTree& tree, const Accelerator& 
   }
   for (int light = 0; light < 2; ++light) {
     const Vec3 at = box.center() + draw.real(0.7, 4) * radius * draw.direction();
-    for (const Hit& start : starts) {
-      RayQuery query;
-      query.ray = {start.point, at - start.point};
-      query.t_max = 1;
-      query.kind = RayKind::shadow;
-      query.from = &start;
-      queries.push_back(query);
-    }
+    for (const Hit& start : starts) queries.push_back(shadow_ray(start, at));
   }
   return queries;
 }

@@ -23,11 +23,11 @@ int BatchCrossings::find(const CsgTree& tree, LeafId leaf, std::span<const RayQu
   leaves_[count_].leaf = leaf;
   PacketCrossings& found = leaves_[count_++].found;
   found.wants_second = wants_second;
-  found.clear();
   const int asked = std::popcount(rays.rays);
-  if (asked < fewest_rays || !tells_packets(tree.primitives, tree[leaf].primitive)) return 0;
-  if (due_ > 0) {
-    --due_;
+  const bool is_told = asked >= fewest_rays && tells_packets(tree.primitives, tree[leaf].primitive);
+  if (!is_told || due_ > 0) {
+    if (is_told) --due_;
+    found.clear();
     return 0;
   }
   alignas(64) std::array<double, most_packet_rays> on_face;

@@ -33,7 +33,9 @@ HWY_INLINE void TraceOneByOne(SingleTracer& single, std::span<const RayQuery> qu
 // Fewer rays are sooner traced one by one (by trial on the bench).
 constexpr std::size_t least_batch = 8;
 // Where rays are traced together or one by one, batches after a few that did not go together mostly do not either.
+// By trial; it decides nothing but how long they take.
 constexpr std::size_t few_apart = 2, batches_left = 14;
+
 void CountRays(const RayBatch& rays, TraversalStatistics& statistics) {
   if (rays.one_kind) {
     statistics[rays.queries[0].kind].rays += rays.count;

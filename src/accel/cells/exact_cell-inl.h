@@ -192,7 +192,7 @@ class ExactCell {
     return placement.to_local(LocalFrom(on_face));
   }
 
-  // The same in its place: to copy it would have to wait for what is written piece by piece.
+  /// The same in its place: to copy it would have to wait for what is written piece by piece.
   void MapInto(Placement::MappedRay& mapped, LeafId leaf, int on_face) const {
     ::new (&mapped) Placement::MappedRay(Map(leaf, on_face));
   }
